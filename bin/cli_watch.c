@@ -1,0 +1,47 @@
+#include <signal.h>
+#include <stdlib.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "cli.h"
+
+static volatile sig_atomic_t interrupted;
+
+static void on_interrupt(int number)
+{
+    (void)number;
+    interrupted = 1;
+}
+
+static double now(void)
+{
+    struct timespec t;
+
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+void cli_watch_start(cli_watch *watch)
+{
+    /* A second interrupt ends the program, should the job not listen. */
+    struct sigaction action = {.sa_handler = on_interrupt,
+                               .sa_flags = (int)SA_RESETHAND};
+
+    sigemptyset(&action.sa_mask);
+    interrupted = 0;
+    sigaction(SIGINT, &action, NULL);
+    watch->started = now();
+}
+
+double cli_seconds(const cli_watch *watch) { return now() - watch->started; }
+
+int cli_watch_progress(void *state, double lower, double upper, double work)
+{
+    const cli_watch *watch = state;
+
+    if (watch->show && isatty(STDERR_FILENO))
+        fprintf(stderr, "\r[%.6g, %.6g] after %.3g steps, %.0f s ", lower, upper,
+                work, cli_seconds(watch));
+    return interrupted ||
+           (watch->seconds > 0.0 && cli_seconds(watch) >= watch->seconds);
+}

@@ -1,0 +1,164 @@
+/* koksma-points: point sets of the families that people use. */
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli.h"
+#include "gen.h"
+
+enum { START = CLI_LONG, BASES, SCRAMBLE, REPLICATES, NPY, HEX, LIST };
+
+static const cli_option options[] = {
+    {'d', "dim", "DIM", "coordinates a point (default 2)"},
+    {'n', "points", "N", "points a set (default 1024)"},
+    {'s', "seed", "SEED", "fixes every random bit (default 1)"},
+    {START, "start", "INDEX", "first index of a sequence (default 0)"},
+    {BASES, "bases", "B,B,...", "coprime bases instead of the first primes"},
+    {SCRAMBLE, "scramble", "none|digits",
+     "permute the digits at random (default none)"},
+    {REPLICATES, "replicates", "R", "so many independent sets (default 1)"},
+    {NPY, "npy", NULL, "write NumPy arrays"},
+    {HEX, "hex", NULL, "write hexadecimal numbers"},
+    {LIST, "list", NULL, "list the families"},
+    {0},
+};
+
+static const cli_tool tool = {"koksma-points", "FAMILY",
+                              "Write point sets of a family.", options};
+
+enum { BLOCK = 4096, BASES_MOST = 10000 };
+
+static void list_families(void)
+{
+    if (!cli_quiet()) puts("# family\tdimensions\tsummary");
+    for (const koksma_gen_family *f = koksma_gen_families; f->name != NULL; f++) {
+        if (f->max_dim == SIZE_MAX)
+            printf("%s\tany\t%s\n", f->name, f->summary);
+        else
+            printf("%s\t1-%zu\t%s\n", f->name, f->max_dim, f->summary);
+    }
+    cli_finish(CLI_DONE);
+}
+
+/* Split "2,3,5"; returns how many there are. */
+static size_t read_bases(uint32_t *bases, char *text)
+{
+    size_t count = 0;
+
+    for (char *next; text != NULL; text = next) {
+        next = strchr(text, ',');
+        if (next != NULL) *next++ = '\0';
+        if (count == BASES_MOST)
+            cli_usage("--bases takes at most %d bases", BASES_MOST);
+        bases[count++] = (uint32_t)cli_count("--bases", text, 2, UINT32_MAX);
+    }
+    return count;
+}
+
+static koksma_scramble read_scramble(const char *text)
+{
+    if (strcmp(text, "none") == 0) return KOKSMA_SCRAMBLE_NONE;
+    if (strcmp(text, "digits") == 0) return KOKSMA_SCRAMBLE_DIGITS;
+    cli_usage("--scramble takes none or digits, not \"%s\"", text);
+}
+
+/* The command line, and what it means to the tools further down the pipe. */
+static void print_comment(int argc, char *argv[], const koksma_gen_opts *o,
+                          const char *family)
+{
+    if (cli_quiet()) return;
+    printf("# %s", tool.name);
+    for (int i = 1; i < argc; i++) {
+        putchar(' ');
+        for (const char *s = argv[i]; *s != '\0'; s++)
+            putchar(*s == '\n' ? '?' : *s);
+    }
+    printf("\n# koksma: points=%s scramble=%s\n", family,
+           o->scramble == KOKSMA_SCRAMBLE_DIGITS ? "digits" : "none");
+}
+
+static void write_set(const koksma_gen_family *family, const koksma_gen_opts *o,
+                      koksma_form form)
+{
+    double *x = malloc(BLOCK * o->dim * sizeof *x);
+    koksma_error err;
+    koksma_gen *g;
+    koksma_status status = koksma_gen_open(&g, family, o, &err);
+
+    if (status == KOKSMA_EINVAL) cli_usage("%s", err.text);
+    if (status != KOKSMA_OK) cli_fail_as(&err);
+    if (x == NULL)
+        cli_fail("not enough memory for points of %zu coordinates", o->dim);
+    if (form == KOKSMA_NPY)
+        status = koksma_write_npy_header(stdout, o->n, o->dim, &err);
+    for (uint64_t i = 0; i < o->n && status == KOKSMA_OK; i += BLOCK) {
+        size_t count = o->n - i < BLOCK ? (size_t)(o->n - i) : BLOCK;
+
+        status = koksma_gen_fill(g, x, i, count, &err);
+        if (status == KOKSMA_OK)
+            status = koksma_write_rows(stdout, x, count, o->dim, form, &err);
+        if (o->n - i <= BLOCK) break;
+    }
+    if (status != KOKSMA_OK) cli_fail_as(&err);
+    koksma_gen_close(g);
+    free(x);
+}
+
+int main(int argc, char *argv[])
+{
+    static uint32_t bases[BASES_MOST];
+    koksma_gen_opts o = {.dim = 2, .n = 1024, .seed = 1};
+    koksma_form form = KOKSMA_DECIMAL;
+    uint64_t replicates = 1;
+    size_t given = 0;
+    int c;
+
+    char **words = malloc(((size_t)argc + 1) * sizeof *words);
+
+    if (words == NULL) cli_fail("not enough memory");
+    memcpy(words, argv,
+           ((size_t)argc + 1) * sizeof *words); /* getopt reorders argv */
+    while ((c = cli_next(&tool, argc, argv)) != -1)
+        switch (c) {
+        case 'd':
+            o.dim = (size_t)cli_count("-d", optarg, 1, SIZE_MAX / 65536);
+            break;
+        case 'n': o.n = cli_count("-n", optarg, 1, UINT64_MAX); break;
+        case 's': o.seed = cli_count("-s", optarg, 0, UINT64_MAX); break;
+        case START: o.start = cli_count("--start", optarg, 0, UINT64_MAX); break;
+        case BASES: given = read_bases(bases, optarg); break;
+        case SCRAMBLE: o.scramble = read_scramble(optarg); break;
+        case REPLICATES:
+            replicates = cli_count("--replicates", optarg, 1, 1000000);
+            break;
+        case NPY: form = KOKSMA_NPY; break;
+        case HEX: form = KOKSMA_HEX; break;
+        case LIST: list_families();
+        }
+    if (argc - optind != 1) cli_usage("name one family; --list lists them");
+
+    const koksma_gen_family *family = koksma_gen_find(argv[optind]);
+
+    if (family == NULL)
+        cli_usage("no family is called \"%s\"; --list lists them", argv[optind]);
+    if (replicates > 1 && o.scramble == KOKSMA_SCRAMBLE_NONE && !family->random)
+        cli_usage(
+            "replicates of %s would be equal: --scramble digits makes them differ",
+            family->name);
+    if (given > 0) {
+        size_t wanted = o.dim - (family == koksma_gen_find("hammersley"));
+
+        if (family->bases && given != wanted)
+            cli_usage("%zu bases, but %zu coordinates of %s take %zu", given, o.dim,
+                      family->name, wanted);
+        o.bases = bases;
+    }
+    for (o.replicate = 0; o.replicate < replicates; o.replicate++) {
+        if (form != KOKSMA_NPY && o.replicate == 0)
+            print_comment(argc, words, &o, family->name);
+        if (form != KOKSMA_NPY && o.replicate > 0) putchar('\n');
+        write_set(family, &o, form);
+    }
+    free(words);
+    cli_finish(CLI_DONE);
+}

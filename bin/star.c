@@ -1,0 +1,98 @@
+/* koksma-star: the star discrepancy of each point set. */
+
+#include <stdlib.h>
+
+#include "cli.h"
+#include "star.h"
+
+static const cli_option options[] = {
+    {'t', "time", "SECONDS", "stop then, with the interval so far"},
+    {'w', "witness", NULL, "write the box that proves the lower bound"},
+    {'p', "progress", NULL, "a live line on standard error"},
+    {'v', "verbose", NULL, "say on standard error what was done"},
+    {0},
+};
+
+static const cli_tool tool = {"koksma-star", "[FILE]...",
+                              "Bound the star discrepancy of each point set.",
+                              options};
+
+typedef struct star_options {
+    cli_watch watch;
+    bool witness, verbose;
+} star_options;
+
+static void print_header(bool several, bool witness)
+{
+    if (cli_quiet()) return;
+    printf("# %sn\tdim\tlower\tupper%s\n", several ? "set\t" : "",
+           witness ? "\tbox\tinside\tcorner" : "");
+}
+
+static void print_row(const cli_input *input, const koksma_set *set,
+                      const koksma_star_result *r, bool witness)
+{
+    if (input->several) printf("%s\t", input->label);
+    printf("%zu\t%zu", set->n, set->dim);
+    putchar('\t');
+    cli_number(r->value.lower);
+    putchar('\t');
+    cli_number(r->value.upper);
+    if (witness) {
+        printf("\t%s\t%zu", r->witness.closed ? "closed" : "open",
+               r->witness.inside);
+        for (size_t k = 0; k < set->dim; k++) {
+            putchar('\t');
+            cli_number(r->witness.corner[k]);
+        }
+    }
+    putchar('\n');
+}
+
+/* Returns whether the set was finished. */
+static bool measure(cli_input *input, const koksma_set *set, star_options *o)
+{
+    koksma_star_opts opts = {.progress = cli_watch_progress, .state = &o->watch};
+    koksma_star_result r = {.witness.corner = malloc(set->dim * sizeof(double))};
+    koksma_error err;
+    koksma_status status;
+
+    if (r.witness.corner == NULL) cli_fail("not enough memory for a witness");
+    cli_watch_start(&o->watch);
+    status = koksma_star(&r, koksma_set_view(set), &opts, &err);
+    if (status != KOKSMA_OK && status != KOKSMA_STOPPED)
+        cli_fail_input(input, &err);
+    print_row(input, set, &r, o->witness);
+    if (status == KOKSMA_STOPPED) cli_note("%s", err.text);
+    if (o->verbose)
+        cli_note("%zu points, %zu coordinates: nested sweep, %.3g corners, %.2f s",
+                 set->n, set->dim, r.work, cli_seconds(&o->watch));
+    free(r.witness.corner);
+    return status == KOKSMA_OK;
+}
+
+int main(int argc, char *argv[])
+{
+    star_options o = {0};
+    koksma_set set = {0};
+    bool header = false, finished = true;
+    int c;
+
+    while ((c = cli_next(&tool, argc, argv)) != -1)
+        switch (c) {
+        case 't': o.watch.seconds = cli_real("-t", optarg, 1e-3, 1e9); break;
+        case 'w': o.witness = true; break;
+        case 'p': o.watch.show = true; break;
+        case 'v': o.verbose = true; break;
+        }
+
+    cli_input input = cli_inputs(argc, argv, KOKSMA_POINTS);
+
+    while (finished && cli_read_set(&input, &set)) {
+        if (!header) print_header(input.several, o.witness);
+        header = true;
+        finished = measure(&input, &set, &o);
+    }
+    koksma_set_free(&set);
+    cli_finish(finished ? CLI_DONE : CLI_STOPPED);
+}

@@ -1,0 +1,75 @@
+#ifndef KOKSMA_GEN_H
+#define KOKSMA_GEN_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "points.h"
+
+/* Generators of point sets in [0,1)^dim: families, each a row of
+ * koksma_gen_families.  A sequence is a family whose elements do not depend on how
+ * many are asked for; it starts at index 0 unless told. */
+
+typedef struct koksma_gen_family {
+    const char *name;
+    const char *summary;
+    size_t max_dim;
+    bool sequence; /* takes a start index; n only says where to stop */
+    bool bases;    /* takes bases and can scramble digits */
+    bool random;   /* replicates differ even unscrambled */
+    const struct ki_gen_kernel *kernel;
+} koksma_gen_family;
+
+/* All families, ended by a row whose name is NULL. */
+extern const koksma_gen_family koksma_gen_families[];
+
+/* The family of that name, or NULL. */
+const koksma_gen_family *koksma_gen_find(const char *name);
+
+typedef enum koksma_scramble {
+    KOKSMA_SCRAMBLE_NONE,
+    KOKSMA_SCRAMBLE_DIGITS /* every digit place of every coordinate permuted at
+                              random */
+} koksma_scramble;
+
+typedef struct koksma_gen_opts {
+    size_t dim;
+    uint64_t n;     /* points in all: a grid's and Hammersley's depend on it */
+    uint64_t start; /* index of the first point of a sequence */
+    const uint32_t *bases; /* pairwise coprime, >= 2: dim of them, for Hammersley
+                            * dim - 1; NULL: the first primes */
+    koksma_scramble scramble;
+    uint64_t seed;      /* fixes every bit, on every machine */
+    uint64_t replicate; /* independent randomisations of one seed: 0, 1, ... */
+} koksma_gen_opts;
+
+typedef struct koksma_gen koksma_gen;
+
+/* Prepare a generator.  It does not change afterwards: threads can share it.
+ *
+ * Halton: coordinate k is the radical inverse of the index in base b_k, the
+ * largest double not above it, never 1 [Halton 1960].  Digits scrambled: each of
+ * the digit places, infinitely many zeros in front of the index included, has a
+ * permutation of its own, drawn uniformly [Owen, Pan 2023 on its variance]; the
+ * result is within two ulps and below 1.  Hammersley: i/n, then Halton.  Sobol':
+ * Gray-code order, the direction numbers of [Joe, Kuo 2008].  Grid: {0..m-1}/m in
+ * each axis, n = m^dim, the last coordinate fastest; centred: {1/2..m-1/2}/m.
+ *
+ * Returns: KOKSMA_OK; KOKSMA_EINVAL: dim out of the family's range, n = 0 or not
+ *          m^dim, start + n above 2^64, start, bases or scrambling given to a
+ *          family that has none, bases below 2 or with a common factor;
+ *          KOKSMA_ENOMEM
+ * Cost:    the permutations take 4 sum_k b_k ceil(64/log2 b_k) bytes */
+koksma_status koksma_gen_open(koksma_gen **out, const koksma_gen_family *family,
+                              const koksma_gen_opts *opts, koksma_error *err);
+void koksma_gen_close(koksma_gen *g); /* g may be NULL */
+
+/* Write points first, ..., first + count - 1 of the opts.n into x, row after row:
+ * room for count*dim doubles.  Reaching any index takes O(dim) steps.
+ *
+ * Returns: KOKSMA_OK; KOKSMA_EINVAL when first + count is above n */
+koksma_status koksma_gen_fill(const koksma_gen *g, double *x, uint64_t first,
+                              size_t count, koksma_error *err);
+
+#endif

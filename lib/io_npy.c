@@ -1,0 +1,254 @@
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "error.h"
+#include "io_kernels.h"
+
+/* NumPy's .npy [NumPy Enhancement Proposal 1]: ten or twelve bytes, a Python
+ * dictionary in text, then the numbers. */
+
+static const char MAGIC[6] = {'\x93', 'N', 'U', 'M', 'P', 'Y'};
+enum { HEADER_MOST = 65536, BLOCK = 4096 };
+
+static koksma_status cut_short(koksma_reader *r, koksma_error *err)
+{
+    if (ferror(r->lines.in))
+        return ki_fail(err, KOKSMA_EIO, 0, "cannot read: %s", strerror(errno));
+    return ki_fail(err, KOKSMA_EFORMAT, 0, "the .npy array is cut short");
+}
+
+/* The text behind 'key': in the dictionary, or NULL. */
+static const char *entry(const char *header, const char *key)
+{
+    const char *s = strstr(header, key);
+
+    if (s == NULL) return NULL;
+    s = ki_skip_blanks(s + strlen(key));
+    return *s == ':' ? ki_skip_blanks(s + 1) : NULL;
+}
+
+static koksma_status take_type(koksma_reader *r, const char *header,
+                               koksma_error *err)
+{
+    static const uint16_t probe = 1;
+    bool little_host = *(const unsigned char *)&probe == 1;
+    const char *type = entry(header, "'descr'");
+    char order;
+
+    if (type == NULL || *type != '\'')
+        return ki_fail(err, KOKSMA_EFORMAT, 0,
+                       "the .npy array is not one of plain numbers");
+    order = type[1];
+    if (strchr("<>=", order) == NULL || type[2] != 'f' ||
+        (type[3] != '4' && type[3] != '8') || type[4] != '\'')
+        return ki_fail(
+            err, KOKSMA_EFORMAT, 0,
+            "the .npy array is of type %.12s: only float64 and float32 are read",
+            type);
+    r->single = type[3] == '4';
+    r->swapped = order != '=' && (order == '<') != little_host;
+    return KOKSMA_OK;
+}
+
+static koksma_status take_shape(koksma_reader *r, const char *header,
+                                koksma_error *err)
+{
+    const char *s = entry(header, "'shape'");
+    uintmax_t axis[2] = {0, 0};
+    size_t axes = 0, all;
+
+    if (s != NULL && *s == '(') {
+        s = ki_skip_blanks(s + 1);
+        while (*s >= '0' && *s <= '9') {
+            char *end;
+            uintmax_t length = strtoumax(s, &end, 10);
+
+            if (axes < 2) axis[axes] = length;
+            axes++;
+            s = ki_skip_blanks(end);
+            if (*s == ',') s = ki_skip_blanks(s + 1);
+        }
+    }
+    if (s == NULL || *s != ')' || axes != 2)
+        return ki_fail(
+            err, KOKSMA_EFORMAT, 0,
+            "the .npy array has %zu axes, not the 2 of points and coordinates",
+            axes);
+    if (axis[0] == 0 || axis[1] == 0)
+        return ki_fail(err, KOKSMA_EFORMAT, 0, "the .npy array is empty");
+    if (axis[0] > SIZE_MAX || axis[1] > SIZE_MAX ||
+        __builtin_mul_overflow((size_t)axis[0], (size_t)axis[1], &all) ||
+        all > PTRDIFF_MAX / sizeof(double))
+        return ki_fail(err, KOKSMA_EFORMAT, 0,
+                       "the .npy array of %ju by %ju is more than memory can hold",
+                       axis[0], axis[1]);
+    r->rows = (size_t)axis[0];
+    r->columns = (size_t)axis[1];
+    return KOKSMA_OK;
+}
+
+/* Read `count` items as doubles. */
+static koksma_status read_items(koksma_reader *r, double *out, size_t count,
+                                koksma_error *err)
+{
+    FILE *in = r->lines.in;
+
+    if (!r->single && fread(out, sizeof *out, count, in) != count)
+        return cut_short(r, err);
+    if (r->single) {
+        float block[BLOCK];
+
+        for (size_t done = 0; done < count; done += BLOCK) {
+            size_t now = count - done < BLOCK ? count - done : BLOCK;
+
+            if (fread(block, sizeof *block, now, in) != now)
+                return cut_short(r, err);
+            for (size_t i = 0; i < now; i++) {
+                uint32_t bits;
+
+                memcpy(&bits, &block[i], sizeof bits);
+                if (r->swapped) bits = __builtin_bswap32(bits);
+                memcpy(&block[i], &bits, sizeof bits);
+                out[done + i] = (double)block[i];
+            }
+        }
+    } else if (r->swapped) {
+        for (size_t i = 0; i < count; i++) {
+            uint64_t bits;
+
+            memcpy(&bits, &out[i], sizeof bits);
+            bits = __builtin_bswap64(bits);
+            memcpy(&out[i], &bits, sizeof bits);
+        }
+    }
+    return KOKSMA_OK;
+}
+
+/* A Fortran-order array is read whole, and turned. */
+static koksma_status read_columns(koksma_reader *r, koksma_error *err)
+{
+    size_t all = r->rows * r->columns, have = 0, room = 0;
+    double *by_column = NULL, *turned;
+    koksma_status status = KOKSMA_OK;
+
+    /* Grown as it is read, so that a false header cannot ask for the world. */
+    while (have < all && status == KOKSMA_OK) {
+        size_t now = all - have < BLOCK ? all - have : BLOCK;
+
+        if (ki_grow((void **)&by_column, &room, have + now, sizeof *by_column) != 0)
+            status = ki_fail_memory(err, "a .npy array");
+        else
+            status = read_items(r, by_column + have, now, err);
+        have += now;
+    }
+    turned = status == KOKSMA_OK ? ki_alloc(all, sizeof *turned) : NULL;
+    if (status == KOKSMA_OK && turned == NULL)
+        status = ki_fail_memory(err, "a .npy array");
+    if (status == KOKSMA_OK)
+        for (size_t k = 0; k < r->columns; k++)
+            for (size_t i = 0; i < r->rows; i++)
+                turned[i * r->columns + k] = by_column[k * r->rows + i];
+    free(by_column);
+    r->transposed = turned;
+    return status;
+}
+
+/* The length of the dictionary, by the version in bytes 6 and 7. */
+static koksma_status header_length(koksma_reader *r, size_t *length,
+                                   koksma_error *err)
+{
+    unsigned char b[12];
+    FILE *in = r->lines.in;
+
+    if (fread(b, 1, 10, in) != 10) return cut_short(r, err);
+    if (memcmp(b, MAGIC, sizeof MAGIC) != 0 || b[6] < 1 || b[6] > 3)
+        return ki_fail(err, KOKSMA_EFORMAT, 0,
+                       "this is not a .npy array of version 1 to 3");
+    *length = b[8] + 256u * b[9];
+    if (b[6] > 1) {
+        if (fread(b + 10, 1, 2, in) != 2) return cut_short(r, err);
+        *length += 65536u * b[10] + 16777216u * b[11];
+    }
+    if (*length > HEADER_MOST)
+        return ki_fail(err, KOKSMA_EFORMAT, 0, "the .npy header claims %zu bytes",
+                       *length);
+    return KOKSMA_OK;
+}
+
+koksma_status ki_npy_next(koksma_reader *r, koksma_error *err)
+{
+    size_t length = 0;
+    koksma_status status;
+    const char *order;
+    char *header;
+    int c = getc(r->lines.in);
+
+    free(r->transposed);
+    r->transposed = NULL;
+    r->columns = r->rows = r->row = 0;
+    if (c == EOF && !ferror(r->lines.in)) return KOKSMA_OK;
+    ungetc(c, r->lines.in);
+    status = header_length(r, &length, err);
+    if (status != KOKSMA_OK) return status;
+    header = ki_alloc(length + 1, 1);
+    if (header == NULL) return ki_fail_memory(err, "a .npy header");
+    if (fread(header, 1, length, r->lines.in) != length) {
+        free(header);
+        return cut_short(r, err);
+    }
+    header[length] = '\0';
+
+    status = take_type(r, header, err);
+    if (status == KOKSMA_OK) status = take_shape(r, header, err);
+    order = entry(header, "'fortran_order'");
+    if (status == KOKSMA_OK && order == NULL)
+        status = ki_fail(err, KOKSMA_EFORMAT, 0, "the .npy header names no order");
+    if (status == KOKSMA_OK && r->content == KOKSMA_VALUES && r->columns < 2)
+        status = ki_fail(err, KOKSMA_EFORMAT, 0,
+                         "1 column, but a point and its value take at least 2");
+    if (status == KOKSMA_OK && strncmp(order, "True", 4) == 0)
+        status = read_columns(r, err);
+    free(header);
+    if (status != KOKSMA_OK) r->columns = 0;
+    return status;
+}
+
+static koksma_status check_row(const koksma_reader *r, const double *row,
+                               size_t number, koksma_error *err)
+{
+    size_t coordinates = r->content == KOKSMA_VALUES ? r->columns - 1 : r->columns;
+
+    for (size_t k = 0; k < coordinates; k++)
+        if (!(row[k] >= 0.0 && row[k] <= 1.0))
+            return ki_fail(err, KOKSMA_EDOMAIN, 0,
+                           "coordinate %zu of point %zu is %.17g, not in [0,1]",
+                           k + 1, number, row[k]);
+    if (coordinates < r->columns && !isfinite(row[coordinates]))
+        return ki_fail(err, KOKSMA_EDOMAIN, 0,
+                       "the value of point %zu is %g, not a finite number", number,
+                       row[coordinates]);
+    return KOKSMA_OK;
+}
+
+koksma_status ki_npy_rows(koksma_reader *r, double *rows, size_t room, size_t *got,
+                          koksma_error *err)
+{
+    size_t left = r->rows - r->row, now = left < room ? left : room;
+    koksma_status status = KOKSMA_OK;
+
+    if (r->transposed != NULL)
+        memcpy(rows, r->transposed + r->row * r->columns,
+               now * r->columns * sizeof *rows);
+    else if (now > 0)
+        status = read_items(r, rows, now * r->columns, err);
+    for (size_t i = 0; i < now && status == KOKSMA_OK; i++)
+        status = check_row(r, rows + i * r->columns, r->row + i + 1, err);
+    if (status != KOKSMA_OK) return status;
+    r->row += now;
+    *got = now;
+    return KOKSMA_OK;
+}

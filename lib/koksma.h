@@ -1,0 +1,16 @@
+#ifndef KOKSMA_H
+#define KOKSMA_H
+
+/* libkoksma: discrepancy and variation analysis.  koksma(3) is the map. */
+
+#include <koksma/curve.h>
+#include <koksma/fit.h>
+#include <koksma/gen.h>
+#include <koksma/integrand.h>
+#include <koksma/io.h>
+#include <koksma/num.h>
+#include <koksma/points.h>
+#include <koksma/rng.h>
+#include <koksma/star.h>
+
+#endif

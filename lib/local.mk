@@ -1,0 +1,40 @@
+# The kernels and the public functions form one archive, which the tests link
+# so that they can reach ki_ names; libkoksma.la exports koksma_ names alone.
+noinst_LTLIBRARIES = %D%/libcore.la
+%C%_libcore_la_SOURCES = \
+  %D%/curve.c %D%/curve.h \
+  %D%/error.c %D%/error.h \
+  %D%/fit.c %D%/fit.h \
+  %D%/gen.c %D%/gen.h %D%/gen_kernels.h %D%/gen_halton.c %D%/gen_plain.c \
+  %D%/gen_radical.c %D%/gen_sobol.c \
+  %D%/integrand.c %D%/integrand.h \
+  %D%/io.c %D%/io.h %D%/io_kernels.h %D%/io_about.c %D%/io_lines.c %D%/io_npy.c \
+  %D%/io_number.c %D%/io_table.c %D%/io_text.c %D%/io_write.c \
+  %D%/num.c %D%/num.h %D%/num_kernels.h %D%/num_student.c \
+  %D%/points.c %D%/points.h \
+  %D%/rng.c %D%/rng.h \
+  %D%/star.c %D%/star.h %D%/star_kernels.h %D%/star_sweep.c
+%C%_libcore_la_CPPFLAGS = $(AM_CPPFLAGS) -I$(top_builddir)/%D%
+
+# Sobol's direction numbers, from the published table to C.
+BUILT_SOURCES += %D%/joe_kuo.inc
+CLEANFILES    += %D%/joe_kuo.inc
+%D%/joe_kuo.inc: $(top_srcdir)/data/joe_kuo_50.txt
+	$(AM_V_GEN)$(MKDIR_P) %D% && $(AWK) '/^[0-9]/ { \
+	  printf "{%s, %s, {%s", $$2, $$3, $$4; \
+	  for (i = 5; i <= NF; i++) printf ", %s", $$i; \
+	  print "}}," }' $(top_srcdir)/data/joe_kuo_50.txt >$@.new && mv $@.new $@
+
+lib_LTLIBRARIES = %D%/libkoksma.la
+%C%_libkoksma_la_SOURCES =
+%C%_libkoksma_la_LIBADD  = %D%/libcore.la
+%C%_libkoksma_la_LDFLAGS = -no-undefined -version-info $(KOKSMA_LT_VERSION) \
+  -export-symbols-regex '^koksma_'
+
+include_HEADERS = %D%/koksma.h
+koksmaincludedir = $(includedir)/koksma
+koksmainclude_HEADERS = \
+  %D%/curve.h %D%/fit.h %D%/gen.h %D%/integrand.h %D%/io.h %D%/num.h \
+  %D%/points.h %D%/rng.h %D%/star.h
+
+pkgconfig_DATA = %D%/koksma.pc

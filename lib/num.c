@@ -1,0 +1,108 @@
+#include "num.h"
+
+#include <float.h>
+#include <math.h>
+
+#include "num_kernels.h"
+
+#if FLT_RADIX != 2 || DBL_MANT_DIG != 53 || DBL_MAX_EXP != 1024
+#error "Koksma needs IEEE 754 doubles"
+#endif
+
+int ki_sum_sign(const double *terms, size_t n)
+{
+    double part[KI_SIGN_TERMS]; /* nonoverlapping, of increasing magnitude */
+    size_t parts = 0;
+
+    for (size_t i = 0; i < n; i++) {
+        double carry = terms[i];
+        size_t kept = 0;
+
+        for (size_t j = 0; j < parts; j++) {
+            double rest;
+
+            carry = ki_two_sum(carry, part[j], &rest);
+            if (rest != 0.0) part[kept++] = rest;
+        }
+        if (carry != 0.0) part[kept++] = carry;
+        parts = kept;
+    }
+    if (parts == 0) return 0;
+    return part[parts - 1] > 0.0 ? 1 : -1;
+}
+
+/* One step multiplies (hi, lo) by c in [0,1].  hi*c = p + e exactly, by fma.
+ * lo*c and the sum with e round; |lo| <= 2^-54 since hi <= 1, so both errors
+ * are below 2^-106, and STEP covers them and the final renormalisation, which
+ * is exact.  When both roundings are seen to be exact nothing is added, so
+ * that products of short dyadic numbers come out exact.  fma's e is itself
+ * exact unless it underflows; products below 2^-960 are therefore charged a step
+ * as well, which is vastly more than they can lose. */
+ki_twofold ki_volume(const double *corner, size_t dim)
+{
+    static const double STEP = 0x1p-104, TINY = 0x1p-960;
+    ki_twofold v = {corner[0], 0.0, 0.0};
+
+    for (size_t k = 1; k < dim && v.hi != 0.0; k++) {
+        double c = corner[k], p = v.hi * c;
+        double e = fma(v.hi, c, -p), q = v.lo * c, rest;
+        double low = ki_two_sum(e, q, &rest);
+
+        if (rest != 0.0 || fma(v.lo, c, -q) != 0.0 ||
+            (c != 0.0 && (p < TINY || (v.lo != 0.0 && fabs(q) < TINY))))
+            v.err += STEP;
+        v.hi = ki_two_sum(p, low, &v.lo);
+    }
+    return v;
+}
+
+/* Whether q*n <= a, up to an uncertainty err that counts against it.  q is
+ * within a few ulps of a/n, so the fma loses at most half an ulp of a number
+ * far smaller than a; its rounding and that of the sum are counted. */
+static int below(double q, double n, ki_twofold a)
+{
+    double r = fma(-q, n, a.hi), s = r + a.lo;
+    double slack = a.err + (fabs(r) + fabs(s)) * DBL_EPSILON;
+
+    if (a.lo == 0.0 && a.err == 0.0) slack = 0.0; /* then the sign of r is exact */
+    return s >= slack;
+}
+
+/* The greatest double that is surely not above a/n.  Where a.err is far below
+ * an ulp, as it is but for a of nearly 0, the search takes a step or two. */
+static double divide_down(ki_twofold a, double n)
+{
+    double q = a.hi / n, up = nextafter(q, HUGE_VAL);
+
+    if (below(q, n, a)) return below(up, n, a) ? up : q;
+    q -= 2.0 * a.err / n;
+    do
+        q = nextafter(q, -HUGE_VAL);
+    while (!below(q, n, a));
+    return q;
+}
+
+koksma_interval ki_deviation(double sign, size_t inside, size_t n, ki_twofold vol)
+{
+    /* a = sign * (inside - n*vol).  n*hi = p + e exactly; n*lo rounds by at most
+     * n 2^-107.  e and the rests are at most n 2^-53, so the two sums of low
+     * parts round by at most n 2^-105 and n 2^-104: together below n 2^-103. */
+    double m = (double)n, p = m * vol.hi, e = fma(m, vol.hi, -p), q = m * vol.lo;
+    double rest, rest2, rest3;
+    double high = ki_two_sum((double)inside, -p, &rest);
+    double low = ki_two_sum(-e, -q, &rest2);
+    double lows = ki_two_sum(rest, low, &rest3);
+    ki_twofold a = {0.0, 0.0, m * vol.err * (1.0 + DBL_EPSILON)};
+    koksma_interval v;
+
+    if (rest2 != 0.0 || rest3 != 0.0 || fma(m, vol.lo, -q) != 0.0)
+        a.err += m * 0x1p-103;
+    a.hi = ki_two_sum(high, lows, &a.lo);
+    a.hi *= sign;
+    a.lo *= sign;
+    v.lower = divide_down(a, m);
+    a.hi = -a.hi;
+    a.lo = -a.lo;
+    v.upper = -divide_down(a, m);
+    return v;
+}

@@ -1,0 +1,34 @@
+#ifndef KI_STAR_KERNELS_H
+#define KI_STAR_KERNELS_H
+
+#include "star.h"
+
+/* Private: the incumbent to which the kernels of the star discrepancy offer
+ * their boxes, and the kernels. */
+
+/* The best box so far.  A kernel works with deviations in plain doubles, off by
+ * less than half of `slack`.  Only those above `bar` can matter, even as ties,
+ * and ki_best_offer evaluates them exactly; so value.lower is proven by the
+ * witness and no box seen so far deviates by more than value.upper. */
+typedef struct ki_best {
+    koksma_points p;
+    koksma_interval value;
+    koksma_box witness; /* its corner has room for p.dim doubles */
+    double slack;
+    double bar; /* value.lower - slack */
+} ki_best;
+
+/* Offer the box at corner.  A kernel that cannot tell tied coordinates apart may
+ * give a count that understates the deviation (too high for an open box, too low
+ * for a closed one), if it also offers the same corner with the true count: the
+ * true one then wins, by 1/n at least. */
+void ki_best_offer(ki_best *b, const double *corner, size_t inside, bool closed);
+
+/* Visit every critical corner of b->p, with scratch from ki_sweep_room.  Returns
+ * the corners visited; *stopped says whether the visit was cut short. */
+typedef struct ki_sweep_scratch ki_sweep_scratch;
+ki_sweep_scratch *ki_sweep_room(size_t n, size_t dim);
+double ki_star_sweep(ki_best *b, ki_sweep_scratch *room,
+                     const koksma_star_opts *opts, bool *stopped);
+
+#endif
