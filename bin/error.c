@@ -28,15 +28,24 @@ typedef struct curves {
     size_t count, sets;
 } curves;
 
-static void print_header(const char *about, double exact, uint64_t dim,
-                         bool summary)
+/* What is known of the values goes on to koksma-fit, with what was told here. */
+typedef struct header {
+    char about[512];
+    double exact;
+    uint64_t dim;
+    bool told; /* exact, on the command line */
+} header;
+
+static void print_header(const header *h, const char *columns)
 {
     if (cli_quiet()) return;
-    printf("# koksma:%s", about);
-    if (dim > 0) printf(" dim=%ju", (uintmax_t)dim);
-    fputs(" exact=", stdout);
-    cli_number(exact);
-    puts(summary ? "\n# N\trms\tlower\tupper\tsets" : "\n# set\tN\terror\ttail");
+    printf("# koksma:%s", h->about);
+    if (h->dim > 0) printf(" dim=%ju", (uintmax_t)h->dim);
+    if (h->told) {
+        fputs(" exact=", stdout);
+        cli_number(h->exact);
+    }
+    printf("\n# %s\n", columns);
 }
 
 static void print_rows(const char *label, const koksma_curve_row *rows,
@@ -114,19 +123,18 @@ static void read_curve(koksma_curve *curve, cli_input *input, size_t columns,
 
 int main(int argc, char *argv[])
 {
-    bool summary = false, told = false, header = false;
-    double exact = 0.0;
-    uint64_t dim = 0, steps = 2;
+    bool summary = false, first = true;
+    header h = {.about = ""};
+    uint64_t steps = 2;
     curves all = {0};
     size_t columns;
     int c;
 
-    while ((c = cli_next(&tool, argc, argv)) != -1)
-        switch (c) {
-        case 'd': dim = cli_count("-d", optarg, 1, SIZE_MAX); break;
+    while ((c = cli_next(&tool, argc, argv)) != -1) switch (c) {
+        case 'd': h.dim = cli_count("-d", optarg, 1, SIZE_MAX); break;
         case EXACT:
-            exact = cli_real("--exact", optarg, -1e300, 1e300);
-            told = true;
+            h.exact = cli_real("--exact", optarg, -1e300, 1e300);
+            h.told = true;
             break;
         case STEPS: steps = cli_count("--steps", optarg, 1, 64); break;
         case SUMMARY: summary = true; break;
@@ -137,25 +145,25 @@ int main(int argc, char *argv[])
     koksma_error err;
 
     if (koksma_curve_open(&curve, (unsigned)steps, &err)) cli_fail_as(&err);
-    while (cli_next_set(&input, &columns)) {
-        const char *about = koksma_reader_about(input.reader);
+    for (; cli_next_set(&input, &columns); first = false) {
         const koksma_curve_row *rows;
         size_t count;
 
-        if (!told && !koksma_about_number(about, "exact", &exact))
-            cli_fail(
-                "the input does not say the exact integral: give --exact VALUE");
-        read_curve(curve, &input, columns, exact);
-        if (koksma_curve_rows(curve, &rows, &count, &err))
-            cli_fail_input(&input, &err);
-        if (!header) print_header(about, exact, dim, summary);
-        header = true;
+        snprintf(h.about, sizeof h.about, "%s", koksma_reader_about(input.reader));
+        if (!h.told && !koksma_about_number(h.about, "exact", &h.exact))
+            cli_fail("the input does not say the exact integral: give --exact VALUE");
+        read_curve(curve, &input, columns, h.exact);
+        if (koksma_curve_rows(curve, &rows, &count, &err)) cli_fail_input(&input, &err);
+        if (first && !summary) print_header(&h, "set\tN\terror\ttail");
         if (summary)
             keep_rows(&all, input.label, rows, count);
         else
             print_rows(input.label, rows, count);
     }
-    if (summary) print_summary(&all);
+    if (summary) {
+        print_header(&h, "N\trms\tlower\tupper\tsets");
+        print_summary(&all);
+    }
     free(all.error);
     free(all.n);
     koksma_curve_close(curve);

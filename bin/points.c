@@ -77,16 +77,24 @@ static void print_comment(int argc, char *argv[], const koksma_gen_opts *o,
            o->scramble == KOKSMA_SCRAMBLE_DIGITS ? "digits" : "none");
 }
 
-static void write_set(const koksma_gen_family *family, const koksma_gen_opts *o,
-                      koksma_form form)
+/* Options that the family refuses are a misuse of the command line. */
+static koksma_gen *open_set(const koksma_gen_family *family, const koksma_gen_opts *o)
 {
-    double *x = malloc(BLOCK * o->dim * sizeof *x);
     koksma_error err;
-    koksma_gen *g;
+    koksma_gen *g = NULL;
     koksma_status status = koksma_gen_open(&g, family, o, &err);
 
     if (status == KOKSMA_EINVAL) cli_usage("%s", err.text);
     if (status != KOKSMA_OK) cli_fail_as(&err);
+    return g;
+}
+
+static void write_set(const koksma_gen *g, const koksma_gen_opts *o, koksma_form form)
+{
+    double *x = malloc(BLOCK * o->dim * sizeof *x);
+    koksma_status status = KOKSMA_OK;
+    koksma_error err;
+
     if (x == NULL)
         cli_fail("not enough memory for points of %zu coordinates", o->dim);
     if (form == KOKSMA_NPY)
@@ -100,7 +108,6 @@ static void write_set(const koksma_gen_family *family, const koksma_gen_opts *o,
         if (o->n - i <= BLOCK) break;
     }
     if (status != KOKSMA_OK) cli_fail_as(&err);
-    koksma_gen_close(g);
     free(x);
 }
 
@@ -154,10 +161,13 @@ int main(int argc, char *argv[])
         o.bases = bases;
     }
     for (o.replicate = 0; o.replicate < replicates; o.replicate++) {
+        koksma_gen *g = open_set(family, &o);
+
         if (form != KOKSMA_NPY && o.replicate == 0)
             print_comment(argc, words, &o, family->name);
         if (form != KOKSMA_NPY && o.replicate > 0) putchar('\n');
-        write_set(family, &o, form);
+        write_set(g, &o, form);
+        koksma_gen_close(g);
     }
     free(words);
     cli_finish(CLI_DONE);

@@ -45,10 +45,9 @@ static koksma_status take_type(koksma_reader *r, const char *header,
     order = type[1];
     if (strchr("<>=", order) == NULL || type[2] != 'f' ||
         (type[3] != '4' && type[3] != '8') || type[4] != '\'')
-        return ki_fail(
-            err, KOKSMA_EFORMAT, 0,
-            "the .npy array is of type %.12s: only float64 and float32 are read",
-            type);
+        return ki_fail(err, KOKSMA_EFORMAT, 0,
+                       "the .npy array is of type %.*s: only float64 and float32 are read",
+                       (int)strcspn(type, ","), type);
     r->single = type[3] == '4';
     r->swapped = order != '=' && (order == '<') != little_host;
     return KOKSMA_OK;

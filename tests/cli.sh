@@ -1,0 +1,196 @@
+#!/bin/sh
+# The tools as their users meet them: each row is a command, and what it must
+# print on both outputs and return.
+set -u
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+cd "$scratch" || exit 1
+tab=$(printf '\t')
+failures=0
+
+# t NAME STATUS STDOUT STDERR COMMAND: run COMMAND and compare all three.
+t() {
+    sh -c "$5" >out 2>err </dev/null
+    status=$?
+    printf '%s' "${3:+$3
+}" >want.out
+    printf '%s' "${4:+$4
+}" >want.err
+    [ "$status" -eq "$2" ] && cmp -s out want.out && cmp -s err want.err && return
+    failures=$((failures + 1))
+    echo "FAILED: $1: $5"
+    [ "$status" -eq "$2" ] || echo "exit status $status, not $2"
+    diff want.out out
+    diff want.err err
+}
+
+# has NAME STATUS PATTERN COMMAND: only the status, and a line of either output.
+has() {
+    sh -c "$4" >out 2>&1 </dev/null
+    status=$?
+    [ "$status" -eq "$2" ] && grep -q -e "$3" out && return
+    failures=$((failures + 1))
+    echo "FAILED: $1: $4"
+    echo "exit status $status (want $2), and no line like '$3' in:"
+    head -n 20 out
+}
+
+head="# n${tab}dim${tab}lower${tab}upper"
+
+# ---- What people do ------------------------------------------------------------
+
+t one-point 0 "$head
+1${tab}2${tab}0.75${tab}0.75" "" 'echo .5 .5 | koksma-star'
+t witness 0 "$head${tab}box${tab}inside${tab}corner
+1${tab}2${tab}0.75${tab}0.75${tab}closed${tab}1${tab}0.5${tab}0.5" "" \
+    'echo .5 .5 | koksma-star -w'
+t on-the-faces 0 "2${tab}2${tab}1${tab}1" "" 'printf "0 0\n0 1\n" | koksma-star -q'
+t forms-of-text 0 "3${tab}2${tab}0.41666666666666663${tab}0.4166666666666667" "" \
+    'printf "# x y\r\n  0x.8p0,0.5\r\n .25\t25e-2 # here\r\n1 , 1" | koksma-star -q'
+t two-sets 0 "# set${tab}n${tab}dim${tab}lower${tab}upper
+1${tab}1${tab}2${tab}0.75${tab}0.75
+2${tab}1${tab}1${tab}0.5${tab}0.5" "" 'printf "\n.5 .5\n\n\n.5\n\n" | koksma-star'
+t two-files 0 "a:1${tab}1${tab}1${tab}0.5${tab}0.5
+-:1${tab}1${tab}1${tab}1${tab}1" "" \
+    'echo .5 >a; cp a ./-; echo 1 >./-; koksma-star -q a ./- | sed "s|^\./||"'
+t points 0 "# koksma-points halton -n 3 -d 2
+# koksma: points=halton scramble=none
+0${tab}0
+0.5${tab}0.3333333333333333
+0.25${tab}0.6666666666666666" "" 'koksma-points halton -n 3 -d 2'
+t start 0 "0.25${tab}0.6666666666666666" "" 'koksma-points halton -n 1 --start 2 -q'
+t bases 0 "0.3333333333333333${tab}0.19999999999999998" "" \
+    'koksma-points halton --bases 3,5 -n 1 --start 1 -q'
+t hex 0 "0x1p-1${tab}0x1.5555555555555p-2" "" \
+    'koksma-points halton -n 1 --start 1 -q --hex'
+t sobol 0 "0${tab}0
+0.5${tab}0.5
+0.75${tab}0.25" "" 'koksma-points sobol -n 3 -q'
+t grid 0 "0${tab}0
+0${tab}0.5
+0.5${tab}0
+0.5${tab}0.5" "" 'koksma-points grid -n 2^2 -q'
+t npy-pipe 0 "1000${tab}3${tab}x" "" \
+    'koksma-points random -d 3 -n 1e3 --npy >p.npy
+     koksma-points random -d 3 -n 1e3 >p.txt
+     koksma-star -q p.npy >1; koksma-star -q p.txt >2; cmp 1 2 && cut -f 1,2 1 | sed "s/$/\tx/"'
+t eval 0 "# koksma: integrand=f2 dim=2 a=0.25 exact=0.5
+# x1${tab}x2${tab}f2
+0.5${tab}0.5${tab}0.25
+0.5${tab}0.75${tab}0.8125" "" 'printf "0.5 0.5\n0.5 .75\n" | koksma-eval f2 -a .25'
+t error 0 "# koksma: integrand=f2 dim=2 a=0 exact=0.5
+# set${tab}N${tab}error${tab}tail
+1${tab}1${tab}-0.5${tab}0.5
+1${tab}2${tab}0${tab}0.16666666666666666
+1${tab}3${tab}0.16666666666666666${tab}0.16666666666666666" "" \
+    'printf "0 0\n1 1\n1 1\n" | koksma-eval f2 | koksma-error'
+t error-told 0 "1${tab}1${tab}-0.75${tab}0.75" "" 'echo 0.1 .25 | koksma-error --exact 1 -q'
+t fit-one-path 0 "exponent${tab}-1${tab}nan${tab}nan${tab}nan${tab}measured
+-1/2${tab}-0.5${tab}-0.55${tab}-0.45${tab}nan${tab}none
+-1${tab}-1${tab}-1.05${tab}-0.95${tab}nan${tab}none
+curvature${tab}x" "" \
+    'printf "16 4\n64 1\n256 .25\n" | koksma-fit -x 1 -y 2 -q | sed "s/^\(curvature.\).*/\1x/"'
+has slope 0 'equivalent to -(D+1)/2D = -0.75' \
+    'koksma-points halton -n 2^13 --scramble digits --replicates 64 | koksma-eval f2 |
+     koksma-error | koksma-fit --explain --margin 0.1'
+has summary 0 "^64${tab}.*${tab}8\$" \
+    'koksma-points halton -n 64 --scramble digits --replicates 8 | koksma-eval f2 |
+     koksma-error --summary'
+t same-bits 0 "" "" \
+    'koksma-points halton --scramble digits --replicates 2 -n 300 | sed 1,2d >a
+     koksma-points halton --scramble digits --replicates 2 -n 100 | sed "1,2d;/^$/,\$d" |
+     diff - a | grep "^<"; true'
+has version 0 '^koksma-star (koksma) [0-9]' 'koksma-star --version'
+has help 0 '^  -w, --witness' 'koksma-star -h'
+has list 0 "^sobol${tab}1-50" 'koksma-points --list'
+
+# ---- Bad input: a sentence with file, line and field, and no result --------------
+
+bad() { t "$1" 1 "" "koksma-star: $2" "$3 | koksma-star"; }
+bad nan 'line 1: coordinate 2 is nan, not in [0,1]' 'echo 0 nan'
+bad inf 'line 2: coordinate 1 is inf, not in [0,1]' 'printf "0\ninf\n"'
+bad above 'line 3: coordinate 3 is 1.5, not in [0,1]' 'printf "#\n0 0 0\n1 1 1.5\n"'
+bad below 'line 1: coordinate 1 is -1e-300, not in [0,1]' 'echo -1e-300'
+bad ragged 'line 2: 1 columns, but the first line of the set has 2' 'printf "0 1\n0\n"'
+bad long 'line 2: more than the 2 columns of the first line of the set' \
+    'printf "0 1\n0 0 0\n"'
+bad word 'line 1: column 2 is hello, not a number' 'echo 0 hello'
+bad tail 'line 1: column 1 is 0.5x, not a number' 'echo 0.5x'
+bad hole 'line 1: column 2 is empty, not a number' 'echo 0,,0'
+bad nul 'line 1: a NUL byte: this is not text' 'printf "0 0\\0 0\n"'
+bad empty 'standard input: no point set in it' 'true'
+bad header 'standard input: no point set in it' 'echo "# n dim"'
+bad npy-cut 'standard input: the .npy array is cut short' \
+    'koksma-points halton -n 9 --npy | head -c 200'
+bad npy-type 'standard input: the .npy array is of type '"'<i8': only float64 and float32 are read" \
+    'koksma-points halton -n 9 --npy | sed "s/<f8/<i8/"'
+t file-and-line 1 "" 'koksma-star: bad.txt:2: coordinate 1 is 2, not in [0,1]' \
+    'printf "0\n2\n" >bad.txt; koksma-star bad.txt'
+t no-file 1 "" 'koksma-star: nowhere: No such file or directory' 'koksma-star nowhere'
+t directory 1 "" 'koksma-star: .: Is a directory' 'koksma-star .'
+t later-set 1 "1${tab}1${tab}1${tab}0.5${tab}0.5
+2${tab}1${tab}1${tab}0.5${tab}0.5" 'koksma-star: line 5: coordinate 1 is 7, not in [0,1]' \
+    'printf ".5\n\n.5\n\n7\n" | koksma-star -q'
+t eval-dim 1 "" 'koksma-eval: set 1 has 3 coordinates a point, but f2 takes 2' \
+    'echo 0 0 0 | koksma-eval f2'
+t no-exact 1 "" \
+    'koksma-error: the input does not say the exact integral: give --exact VALUE' \
+    'echo 0 1 | koksma-error'
+t no-value 1 "" 'koksma-error: line 1: 1 column, but a point and its value take at least 2' \
+    'echo 1 | koksma-error --exact 0'
+t unequal 1 "" \
+    'koksma-error: set 2 has 2 values, the first set 1: --summary takes equal ones' \
+    'printf "0 1\n\n0 1\n0 1\n" | koksma-error --exact 0 --summary'
+t fit-column 1 "" 'koksma-fit: standard input: no column is called "error"' \
+    'printf "# N err\n1 1\n" | koksma-fit'
+t fit-short 1 "" \
+    'koksma-fit: standard input: 1 usable N in the window, 0 dropped: a fit takes 3' \
+    'printf "16 4\n" | koksma-fit -x 1 -y 2'
+t fit-word 1 "" 'koksma-fit: line 2: column 2 is four, not a finite number' \
+    'printf "16 4\n32 four\n" | koksma-fit -x 1 -y 2'
+
+# ---- Bad command lines -------------------------------------------------------------
+
+try="
+Try 'koksma-points -h'."
+t no-family 2 "" "koksma-points: name one family; --list lists them$try" 'koksma-points'
+t family 2 "" "koksma-points: no family is called \"hilton\"; --list lists them$try" \
+    'koksma-points hilton'
+t number-tail 2 "" \
+    "koksma-points: -n takes a whole number from 1 to 18446744073709551615, not \"10k\"$try" \
+    'koksma-points halton -n 10k'
+t no-grid 2 "" "koksma-points: 10 points make no grid in 2 dimensions: no m^2$try" \
+    'koksma-points grid -n 10'
+t equal-replicates 2 "" \
+    "koksma-points: replicates of sobol would be equal: --scramble digits makes them differ$try" \
+    'koksma-points sobol --replicates 2'
+t common-factor 2 "" "koksma-points: bases 4 and 6 have a common factor$try" \
+    'koksma-points halton --bases 4,6'
+t sobol-dim 2 "" "koksma-points: dimension 51: sobol has 1 to 50$try" \
+    'koksma-points sobol -d 51'
+t too-far 2 "" "koksma-points: indices reach beyond 2^64 - 1$try" \
+    'koksma-points halton --start 18446744073709551615 -n 2'
+has unknown-option 2 "Try 'koksma-star -h'." 'koksma-star --nonsense'
+has parameter 2 'f2 has a from 0 to 0.5, not 0.75' 'echo 0 0 | koksma-eval f2 -a .75'
+
+# ---- Faults of the system, and stopping ---------------------------------------------
+
+if [ -w /dev/full ]; then
+    t full-disk 1 "" \
+        'koksma-points: standard output: cannot write: No space left on device' \
+        'koksma-points halton -n 1e5 >/dev/full'
+    t full-disk-small 1 "" \
+        'koksma-star: standard output: cannot write: No space left on device' \
+        'echo .5 | koksma-star >/dev/full'
+    t full-disk-npy 1 "" \
+        'koksma-points: standard output: cannot write: No space left on device' \
+        'koksma-points halton -n 1e5 --npy >/dev/full'
+fi
+t closed-pipe 0 "# koksma-points halton -n 2^40" "" 'koksma-points halton -n 2^40 | head -n 1'
+has time-limit 3 '	1$' 'koksma-points random -d 6 -n 2000 | koksma-star -t 0.05 -q'
+has interrupt 3 '	1$' \
+    'koksma-points random -d 6 -n 2000 >p
+     sh -c "trap - INT; exec koksma-star -q p" & sleep 1; kill -INT $!; wait $!'
+
+[ "$failures" -eq 0 ] || echo "$failures rows failed"
+[ "$failures" -eq 0 ]

@@ -1,0 +1,197 @@
+/* Out of memory at every allocation: each public function that allocates is run
+ * with the first, the second, ... allocation refused, until it succeeds.  It must
+ * say KOKSMA_ENOMEM; what it leaks, a sanitizer or valgrind finds.  Linked with
+ * --wrap for the three functions below. */
+
+#include <check.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "curve.h"
+#include "fit.h"
+#include "gen.h"
+#include "io.h"
+#include "star.h"
+
+void *__real_malloc(size_t size);
+void *__real_calloc(size_t count, size_t size);
+void *__real_realloc(void *old, size_t size);
+void *__wrap_malloc(size_t size);
+void *__wrap_calloc(size_t count, size_t size);
+void *__wrap_realloc(void *old, size_t size);
+
+static long granted = -1; /* allocations until one is refused; negative: all */
+
+static int refused(void)
+{
+    return granted >= 0 && granted-- == 0;
+}
+
+void *__wrap_malloc(size_t size)
+{
+    return refused() ? NULL : __real_malloc(size);
+}
+
+void *__wrap_calloc(size_t count, size_t size)
+{
+    return refused() ? NULL : __real_calloc(count, size);
+}
+
+void *__wrap_realloc(void *old, size_t size)
+{
+    return refused() ? NULL : __real_realloc(old, size);
+}
+
+/* Run job with ever more allocations granted; returns how many it took. */
+static long exhaust(koksma_status (*job)(koksma_error *err))
+{
+    for (long most = 0; most < 1000; most++) {
+        koksma_error err = {0};
+        koksma_status status;
+
+        granted = most;
+        status = job(&err);
+        granted = -1;
+        if (status == KOKSMA_OK) return most;
+        ck_assert_int_eq(status, KOKSMA_ENOMEM);
+        ck_assert_int_eq(err.status, KOKSMA_ENOMEM);
+        ck_assert_msg(strncmp(err.text, "not enough memory for ", 22) == 0, "%s", err.text);
+    }
+    ck_abort_msg("1000 allocations and no end");
+    return 0;
+}
+
+static koksma_status star_job(koksma_error *err)
+{
+    static const double x[] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6};
+    koksma_star_result r = {0};
+
+    return koksma_star(&r, (koksma_points){x, 2, 3}, NULL, err);
+}
+
+static koksma_status gen_job(koksma_error *err)
+{
+    koksma_gen_opts o = {.dim = 3, .n = 8, .scramble = KOKSMA_SCRAMBLE_DIGITS};
+    koksma_gen *g;
+    koksma_status status = koksma_gen_open(&g, koksma_gen_find("halton"), &o, err);
+
+    if (status == KOKSMA_OK) koksma_gen_close(g);
+    return status;
+}
+
+static koksma_status sobol_job(koksma_error *err)
+{
+    koksma_gen_opts o = {.dim = 3, .n = 8};
+    koksma_gen *g;
+    koksma_status status = koksma_gen_open(&g, koksma_gen_find("sobol"), &o, err);
+
+    if (status == KOKSMA_OK) koksma_gen_close(g);
+    return status;
+}
+
+static koksma_status read_job(const char *text, size_t size, koksma_error *err)
+{
+    char copy[512];
+    koksma_set set = {0};
+    koksma_reader *r = NULL;
+    koksma_status status;
+    long saved = granted;
+    FILE *in;
+
+    memcpy(copy, text, size);
+    granted = -1;
+    in = fmemopen(copy, size, "r");
+    granted = saved;
+    status = koksma_reader_open(&r, in, KOKSMA_VALUES, err);
+    while (status == KOKSMA_OK) {
+        status = koksma_set_read(&set, r, err);
+        if (set.n == 0) break;
+    }
+    koksma_reader_close(r);
+    koksma_set_free(&set);
+    fclose(in);
+    return status;
+}
+
+static koksma_status text_job(koksma_error *err)
+{
+    static const char text[] = "# a comment\n# koksma: a=1\n0.5 1\n0.25 2\n\n0.5 0.5 7\n";
+
+    return read_job(text, sizeof text - 1, err);
+}
+
+static koksma_status npy_job(koksma_error *err)
+{
+    static const double rows[] = {0.5, 0.25, 3.0, 4.0}; /* column by column */
+    char text[160];
+
+    memset(text, ' ', 128);
+    memcpy(text, "\x93NUMPY\x01\x00\x76\x00", 10);
+    memcpy(text + 10, "{'descr': '<f8', 'fortran_order': True, 'shape': (2, 2), }", 58);
+    text[127] = '\n';
+    memcpy(text + 128, rows, sizeof rows);
+    return read_job(text, sizeof text, err);
+}
+
+static koksma_status table_job(koksma_error *err)
+{
+    char text[] = "# set N error\n1 8 0.5\n2 8 0.25\n";
+    koksma_table table = {0};
+    koksma_status status;
+    long saved = granted;
+    FILE *in;
+
+    granted = -1;
+    in = fmemopen(text, sizeof text - 1, "r");
+    granted = saved;
+    status = koksma_table_read(&table, in, "N", "error", err);
+    koksma_table_free(&table);
+    fclose(in);
+    return status;
+}
+
+static koksma_status curve_job(koksma_error *err)
+{
+    koksma_curve *c;
+    koksma_status status = koksma_curve_open(&c, 2, err);
+
+    if (status == KOKSMA_OK) koksma_curve_close(c);
+    return status;
+}
+
+static koksma_status fit_job(koksma_error *err)
+{
+    static const double x[] = {8, 16, 32}, y[] = {4, 2, 1};
+    static const size_t set[] = {0, 0, 0};
+    koksma_fit_result f;
+
+    return koksma_fit(&f, (koksma_fit_data){x, y, set, 3, 1}, NULL, err);
+}
+
+START_TEST(every_allocation_may_fail)
+{
+    ck_assert_int_ge(exhaust(star_job), 2);
+    ck_assert_int_ge(exhaust(gen_job), 5);
+    ck_assert_int_ge(exhaust(sobol_job), 2);
+    ck_assert_int_ge(exhaust(text_job), 4);
+    ck_assert_int_ge(exhaust(npy_job), 5);
+    ck_assert_int_ge(exhaust(table_job), 4);
+    ck_assert_int_ge(exhaust(curve_job), 1);
+    ck_assert_int_ge(exhaust(fit_job), 3);
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("alloc");
+    TCase *tc = tcase_create("alloc");
+    SRunner *runner = srunner_create(suite);
+    int failed;
+
+    tcase_add_test(tc, every_allocation_may_fail);
+    suite_add_tcase(suite, tc);
+    srunner_run_all(runner, CK_ENV);
+    failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}
