@@ -197,7 +197,12 @@ double cli_real(const char *option, const char *text, double least, double most)
 {
     char *end;
     double v = strtod(text, &end);
+    uint64_t power;
 
+    if (*end == '^' && read_count(text, &power)) {
+        v = (double)power;
+        end = strchr(text, '\0');
+    }
     if (end == text || *end != '\0' || !(v >= least && v <= most))
         cli_usage("%s takes a number from %g to %g, not \"%s\"", option, least,
                   most, text);

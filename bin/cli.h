@@ -98,7 +98,8 @@ typedef struct cli_watch {
 
 /* From here on an interrupt stops the job, not the program. */
 void cli_watch_start(cli_watch *watch);
-double cli_seconds(const cli_watch *watch); /* since then */
-koksma_progress cli_watch_progress;         /* its state is the cli_watch */
+void cli_watch_stop(const cli_watch *watch); /* and from here the program again */
+double cli_seconds(const cli_watch *watch);  /* since the start */
+koksma_progress cli_watch_progress;          /* its state is the cli_watch */
 
 #endif

@@ -33,6 +33,12 @@ void cli_watch_start(cli_watch *watch)
     watch->started = now();
 }
 
+void cli_watch_stop(const cli_watch *watch)
+{
+    signal(SIGINT, SIG_DFL);
+    if (watch->show && isatty(STDERR_FILENO)) putc('\n', stderr);
+}
+
 double cli_seconds(const cli_watch *watch) { return now() - watch->started; }
 
 int cli_watch_progress(void *state, double lower, double upper, double work)

@@ -130,7 +130,8 @@ int main(int argc, char *argv[])
     size_t columns;
     int c;
 
-    while ((c = cli_next(&tool, argc, argv)) != -1) switch (c) {
+    while ((c = cli_next(&tool, argc, argv)) != -1)
+        switch (c) {
         case 'd': h.dim = cli_count("-d", optarg, 1, SIZE_MAX); break;
         case EXACT:
             h.exact = cli_real("--exact", optarg, -1e300, 1e300);
@@ -151,9 +152,11 @@ int main(int argc, char *argv[])
 
         snprintf(h.about, sizeof h.about, "%s", koksma_reader_about(input.reader));
         if (!h.told && !koksma_about_number(h.about, "exact", &h.exact))
-            cli_fail("the input does not say the exact integral: give --exact VALUE");
+            cli_fail(
+                "the input does not say the exact integral: give --exact VALUE");
         read_curve(curve, &input, columns, h.exact);
-        if (koksma_curve_rows(curve, &rows, &count, &err)) cli_fail_input(&input, &err);
+        if (koksma_curve_rows(curve, &rows, &count, &err))
+            cli_fail_input(&input, &err);
         if (first && !summary) print_header(&h, "set\tN\terror\ttail");
         if (summary)
             keep_rows(&all, input.label, rows, count);

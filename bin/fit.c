@@ -118,8 +118,7 @@ static void explain_verdict(const koksma_fit_result *f, const candidate *c,
                c->exponent);
         break;
     case KOKSMA_UNDECIDED:
-        printf("It agrees with %s = %.4g, but is not narrow enough to call it "
-               "equivalent "
+        printf("It agrees with %s = %.4g, but is too wide to be called equivalent\n"
                "within %g.\n",
                c->name, c->exponent, margin);
         break;
@@ -135,8 +134,9 @@ static void explain(const koksma_fit_result *f, const fit_options *o,
     const char *bend = bend_word(f);
 
     if (label != NULL) printf("%s: ", label);
-    printf("From N = %g to %g the error falls like %.3g N^s with s = %.4f.\n",
-           f->from, f->to, f->constant, f->exponent.value);
+    printf("From N = %g to %g %s %s goes like %.3g N^s with s = %.4f.\n", f->from,
+           f->to, strcmp(o->y, "error") == 0 ? "the" : "column", o->y, f->constant,
+           f->exponent.value);
     if (f->sets == 1) {
         puts("This is one path: its errors hang together, and no honest interval "
              "can be had\n"
@@ -150,9 +150,8 @@ static void explain(const koksma_fit_result *f, const fit_options *o,
     for (size_t i = 0; i < count; i++)
         explain_verdict(f, &c[i], o->margin);
     if (strcmp(bend, "straight") != 0)
-        printf("The line is not straight: it %s towards large N, so that one "
-               "exponent does "
-               "not say all.\n",
+        printf("The line is not straight: it %s towards large N, so that one\n"
+               "exponent does not say all.\n",
                bend);
 }
 

@@ -1,7 +1,7 @@
 # The tools are installed as koksma-<tool>, one file each over cli.
 noinst_LTLIBRARIES += %D%/libcli.la
 %C%_libcli_la_SOURCES = %D%/cli.h %D%/cli.c %D%/cli_input.c %D%/cli_watch.c
-LDADD = %D%/libcli.la lib/libkoksma.la
+tool_libs = %D%/libcli.la lib/libkoksma.la
 
 bin_PROGRAMS += \
   %D%/koksma-error %D%/koksma-eval %D%/koksma-fit %D%/koksma-points %D%/koksma-star
@@ -10,3 +10,8 @@ bin_PROGRAMS += \
 %C%_koksma_fit_SOURCES    = %D%/fit.c
 %C%_koksma_points_SOURCES = %D%/points.c
 %C%_koksma_star_SOURCES   = %D%/star.c
+%C%_koksma_error_LDADD = $(tool_libs)
+%C%_koksma_eval_LDADD = $(tool_libs)
+%C%_koksma_fit_LDADD = $(tool_libs)
+%C%_koksma_points_LDADD = $(tool_libs)
+%C%_koksma_star_LDADD = $(tool_libs)

@@ -78,7 +78,8 @@ static void print_comment(int argc, char *argv[], const koksma_gen_opts *o,
 }
 
 /* Options that the family refuses are a misuse of the command line. */
-static koksma_gen *open_set(const koksma_gen_family *family, const koksma_gen_opts *o)
+static koksma_gen *open_set(const koksma_gen_family *family,
+                            const koksma_gen_opts *o)
 {
     koksma_error err;
     koksma_gen *g = NULL;
@@ -89,7 +90,8 @@ static koksma_gen *open_set(const koksma_gen_family *family, const koksma_gen_op
     return g;
 }
 
-static void write_set(const koksma_gen *g, const koksma_gen_opts *o, koksma_form form)
+static void write_set(const koksma_gen *g, const koksma_gen_opts *o,
+                      koksma_form form)
 {
     double *x = malloc(BLOCK * o->dim * sizeof *x);
     koksma_status status = KOKSMA_OK;

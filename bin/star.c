@@ -1,5 +1,6 @@
 /* koksma-star: the star discrepancy of each point set. */
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "cli.h"
@@ -25,7 +26,7 @@ typedef struct star_options {
 static void print_header(bool several, bool witness)
 {
     if (cli_quiet()) return;
-    printf("# %sn\tdim\tlower\tupper%s\n", several ? "set\t" : "",
+    printf("# %sn\tdim\tlower\tupper%s\n", several ? "input\t" : "",
            witness ? "\tbox\tinside\tcorner" : "");
 }
 
@@ -52,7 +53,10 @@ static void print_row(const cli_input *input, const koksma_set *set,
 /* Returns whether the set was finished. */
 static bool measure(cli_input *input, const koksma_set *set, star_options *o)
 {
-    koksma_star_opts opts = {.progress = cli_watch_progress, .state = &o->watch};
+    /* Who says how long does not mind how much. */
+    koksma_star_opts opts = {.work = o->watch.seconds > 0.0 ? HUGE_VAL : 0.0,
+                             .progress = cli_watch_progress,
+                             .state = &o->watch};
     koksma_star_result r = {.witness.corner = malloc(set->dim * sizeof(double))};
     koksma_error err;
     koksma_status status;
@@ -60,6 +64,7 @@ static bool measure(cli_input *input, const koksma_set *set, star_options *o)
     if (r.witness.corner == NULL) cli_fail("not enough memory for a witness");
     cli_watch_start(&o->watch);
     status = koksma_star(&r, koksma_set_view(set), &opts, &err);
+    cli_watch_stop(&o->watch);
     if (status != KOKSMA_OK && status != KOKSMA_STOPPED)
         cli_fail_input(input, &err);
     print_row(input, set, &r, o->witness);

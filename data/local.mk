@@ -1,2 +1,3 @@
-dist_pkgdata_DATA = %D%/bundschuh_zhu_32.txt
-EXTRA_DIST += %D%/README %D%/joe_kuo_50.txt %D%/known_star.tsv
+# joe_kuo_50.txt holds the licence of numbers that are compiled into the library.
+dist_pkgdata_DATA = %D%/bundschuh_zhu_32.txt %D%/joe_kuo_50.txt
+EXTRA_DIST += %D%/README %D%/known_star.tsv

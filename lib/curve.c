@@ -1,6 +1,7 @@
 #include "curve.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 
 #include "error.h"
@@ -14,6 +15,7 @@ struct koksma_curve {
     ki_sum sum; /* of f_i - exact */
     uint64_t n, next;
     double worst; /* |e| since the last row */
+    bool ended;   /* the tails of the rows are final */
     size_t count;
     koksma_curve_row rows[]; /* room for every row that 2^64 values can make */
 };
@@ -44,6 +46,7 @@ void koksma_curve_begin(koksma_curve *c, double exact)
     c->next = 1;
     c->step = 0;
     c->worst = 0.0;
+    c->ended = false;
     c->count = 0;
 }
 
@@ -80,41 +83,47 @@ koksma_status koksma_curve_rows(koksma_curve *c, const koksma_curve_row **rows,
     if (c->n > 0 && c->rows[c->count - 1].n < c->n)
         add_row(c, ki_sum_value(c->sum) / (double)c->n);
     tail = c->worst;
-    for (size_t j = c->count; j-- > 0;) {
+    for (size_t j = c->count; !c->ended && j-- > 0;) {
         double before = c->rows[j].tail;
 
         tail = fmax(tail, fabs(c->rows[j].error));
         c->rows[j].tail = tail;
         tail = fmax(tail, before);
     }
+    c->ended = true;
     *rows = c->rows;
     *count = c->count;
     return KOKSMA_OK;
 }
 
+/* ln of the root mean square of all errors but one (count: of all), in units of
+ * `unit`.  Summed anew each time: subtracting the one would cancel. */
+static double log_rms(const double *errors, size_t count, size_t left_out,
+                      double unit)
+{
+    double sum = 0.0;
+
+    for (size_t r = 0; r < count; r++)
+        if (r != left_out) sum += pow(errors[r] / unit, 2.0);
+    return log(sum / (double)(count - (left_out < count))) / 2.0;
+}
+
 koksma_estimate koksma_curve_rms(const double *errors, size_t count, double level)
 {
     koksma_estimate e = {0.0, nan(""), nan(""), 0.0};
-    double squares = 0.0, largest = 0.0, mean = 0.0, spread = 0.0,
-           m = (double)count;
+    double largest = 0.0, mean = 0.0, spread = 0.0, m = (double)count;
+    size_t live = 0;
 
-    /* Scaled by the largest, so that squares of tiny errors do not vanish. */
-    for (size_t r = 0; r < count; r++)
-        largest = fmax(largest, fabs(errors[r]));
-    if (largest == 0.0) return e;
-    for (size_t r = 0; r < count; r++)
-        squares += pow(errors[r] / largest, 2.0);
-    e.value = largest * sqrt(squares / m);
     for (size_t r = 0; r < count; r++) {
-        double rest = squares - pow(errors[r] / largest, 2.0);
-
-        if (!(rest > 0.0)) return e;
-        mean += log(rest / (m - 1.0)) / 2.0 / m;
+        largest = fmax(largest, fabs(errors[r]));
+        live += errors[r] != 0.0;
     }
+    if (live > 0) e.value = largest * exp(log_rms(errors, count, count, largest));
+    if (live < 2) return e;
     for (size_t r = 0; r < count; r++)
-        spread += pow(
-            log((squares - pow(errors[r] / largest, 2.0)) / (m - 1.0)) / 2.0 - mean,
-            2.0);
+        mean += log_rms(errors, count, r, largest) / m;
+    for (size_t r = 0; r < count; r++)
+        spread += pow(log_rms(errors, count, r, largest) - mean, 2.0);
     double reach =
         ki_student_quantile(level, count - 1) * sqrt(spread * (m - 1.0) / m);
     e.lower = e.value * exp(-reach);

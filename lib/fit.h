@@ -51,8 +51,8 @@ typedef struct koksma_fit_result {
  *
  * An N in [from, to] is left out when a replicate has no error there, when fewer
  * than half of the replicates have one that is not 0, when all but one are 0, or
- * when the root mean square is below 2^-50 of the largest error in the data, where
- * rounding speaks.
+ * when the root mean square is below 2^-50 of the largest error in the window,
+ * where rounding speaks.
  *
  * Returns: KOKSMA_OK; KOKSMA_EINVAL: options out of range, or fewer than 3 N's
  *          left; KOKSMA_EDOMAIN: an N not above 0, a number that is not finite, or

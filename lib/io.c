@@ -6,7 +6,7 @@
 #include "error.h"
 #include "io_kernels.h"
 
-enum { BLOCK = 4096 }; /* rows asked for at a time: sets grow as they are read */
+enum { BLOCK = 8192 }; /* numbers asked for at a time: sets grow as they are read */
 
 koksma_status koksma_reader_open(koksma_reader **out, FILE *in,
                                  koksma_content content, koksma_error *err)
@@ -30,13 +30,15 @@ void koksma_reader_close(koksma_reader *r)
 }
 
 /* The first byte tells .npy from text: it is no byte of ASCII. */
-static void look_at_first_byte(koksma_reader *r)
+static koksma_status look_at_first_byte(koksma_reader *r, koksma_error *err)
 {
     int c = getc(r->lines.in);
 
+    if (c == EOF && ferror(r->lines.in)) return ki_fail_read(err);
     r->started = true;
     r->npy = c == 0x93;
     if (c != EOF) ungetc(c, r->lines.in);
+    return KOKSMA_OK;
 }
 
 koksma_status koksma_reader_rows(koksma_reader *r, double *rows, size_t room,
@@ -71,7 +73,8 @@ koksma_status koksma_reader_next(koksma_reader *r, size_t *columns,
 {
     koksma_status status = KOKSMA_OK;
 
-    if (!r->started) look_at_first_byte(r);
+    if (!r->started) status = look_at_first_byte(r, err);
+    if (status != KOKSMA_OK) return status;
     if (r->columns > 0 && (r->npy ? r->row == 0 : r->pending)) {
         *columns = r->columns;
         return KOKSMA_OK;
@@ -92,14 +95,14 @@ koksma_status koksma_reader_next(koksma_reader *r, size_t *columns,
 
 const char *koksma_reader_about(const koksma_reader *r) { return r->lines.about; }
 
-/* Split the last column off the rows, in place: x keeps the coordinates. */
-static koksma_status split_values(koksma_set *set, koksma_error *err)
+/* Split the last column off the n rows, in place: x keeps the coordinates. */
+static koksma_status split_values(koksma_set *set, size_t n, koksma_error *err)
 {
     size_t dim = set->dim;
 
-    if (ki_grow((void **)&set->f, &set->room_f, set->n, sizeof *set->f) != 0)
+    if (ki_grow((void **)&set->f, &set->room_f, n, sizeof *set->f) != 0)
         return ki_fail_memory(err, "the values");
-    for (size_t i = 0; i < set->n; i++) {
+    for (size_t i = 0; i < n; i++) {
         set->f[i] = set->x[i * (dim + 1) + dim];
         memmove(set->x + i * dim, set->x + i * (dim + 1), dim * sizeof *set->x);
     }
@@ -111,20 +114,30 @@ koksma_status koksma_set_read(koksma_set *set, koksma_reader *r, koksma_error *e
     size_t columns = 0, got = 1, n = 0, need;
     koksma_status status = koksma_reader_next(r, &columns, err);
 
+    set->n = 0;
     if (status != KOKSMA_OK) return status;
+    if (r->content == KOKSMA_POINTS) {
+        free(set->f);
+        set->f = NULL;
+        set->room_f = 0;
+    }
     while (columns > 0 && got > 0) {
-        if (__builtin_mul_overflow(n + BLOCK, columns, &need) ||
+        size_t rows = columns < BLOCK ? BLOCK / columns : 1;
+
+        if (__builtin_mul_overflow(n + rows, columns, &need) ||
             ki_grow((void **)&set->x, &set->room, need, sizeof *set->x) != 0)
             return ki_fail_memory(err, "the points");
-        status = koksma_reader_rows(r, set->x + n * columns, BLOCK, &got, err);
+        status = koksma_reader_rows(r, set->x + n * columns, rows, &got, err);
         if (status != KOKSMA_OK) return status;
         n += got;
     }
-    set->n = n;
     set->dim = columns;
-    if (r->content == KOKSMA_POINTS || n == 0) return KOKSMA_OK;
-    set->dim--;
-    return split_values(set, err);
+    if (r->content == KOKSMA_VALUES && n > 0) {
+        set->dim--;
+        status = split_values(set, n, err);
+    }
+    if (status == KOKSMA_OK) set->n = n;
+    return status;
 }
 
 void koksma_set_free(koksma_set *set)

@@ -68,7 +68,7 @@ typedef struct koksma_set {
     size_t room, room_f; /* doubles there is room for */
 } koksma_set;
 
-/* Read the next set, whole; n is 0 when there is none. */
+/* Read the next set, whole; n is 0 when there is none, and after a failure. */
 koksma_status koksma_set_read(koksma_set *set, koksma_reader *r, koksma_error *err);
 void koksma_set_free(koksma_set *set);
 koksma_points koksma_set_view(const koksma_set *set);

@@ -43,6 +43,13 @@ static inline const char *ki_field_end(const char *s)
 /* Past a field's end and the comma behind it, if there is one; *comma says so. */
 const char *ki_next_field(const char *end, bool *comma);
 
+/* "cannot read: " and why, by errno. */
+koksma_status ki_fail_read(koksma_error *err);
+
+/* Enough of a text to find it by, and nothing that a terminal would obey. */
+enum { KI_SHOWN = 44 };
+void ki_show(char shown[KI_SHOWN], const char *text, size_t length);
+
 /* "column 2 is "0.5x", not a number", and the like, with the line. */
 koksma_status ki_fail_field(koksma_error *err, koksma_status status, size_t line,
                             const char *what, size_t number, const char *field,

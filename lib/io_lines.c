@@ -13,10 +13,13 @@ static const char MARK[] = " koksma:";
 /* Keep what a `# koksma:` comment says.  What does not fit is left out, whole. */
 static void remember(ki_lines *l, const char *words)
 {
-    size_t used = strlen(l->about), length = strlen(words);
+    size_t used = strlen(l->about), length;
 
-    if (used + length + 1 >= sizeof l->about) return;
-    memcpy(l->about + used, words, length + 1);
+    words = ki_skip_blanks(words);
+    length = strlen(words);
+    if (used + length + 2 >= sizeof l->about) return;
+    l->about[used] = ' ';
+    memcpy(l->about + used + 1, words, length + 1);
 }
 
 /* A comment is about the data, or it may name the columns of a table. */
@@ -43,12 +46,9 @@ koksma_status ki_lines_next(ki_lines *l, bool *more, koksma_error *err)
     errno = 0;
     length = getline(&l->text, &l->room, l->in);
     *more = length >= 0;
-    if (length < 0) {
-        if (ferror(l->in))
-            return ki_fail(err, KOKSMA_EIO, 0, "cannot read: %s", strerror(errno));
-        if (!feof(l->in)) return ki_fail_memory(err, "a line");
-        return KOKSMA_OK;
-    }
+    /* Also behind half a line: what came before the failure is no line. */
+    if (ferror(l->in)) return ki_fail_read(err);
+    if (length < 0) return feof(l->in) ? KOKSMA_OK : ki_fail_memory(err, "a line");
     l->number++;
     if (strlen(l->text) != (size_t)length)
         return ki_fail(err, KOKSMA_EFORMAT, l->number,
@@ -79,18 +79,28 @@ const char *ki_next_field(const char *end, bool *comma)
     return *comma ? ki_skip_blanks(end + 1) : end;
 }
 
+koksma_status ki_fail_read(koksma_error *err)
+{
+    return ki_fail(err, KOKSMA_EIO, 0, "cannot read: %s", strerror(errno));
+}
+
+void ki_show(char shown[KI_SHOWN], const char *text, size_t length)
+{
+    size_t i = 0;
+
+    for (; i < length && i < KI_SHOWN - 4; i++)
+        shown[i] = isprint((unsigned char)text[i]) ? text[i] : '?';
+    memcpy(shown + i, i < length ? "..." : "", i < length ? 4 : 1);
+}
+
 koksma_status ki_fail_field(koksma_error *err, koksma_status status, size_t line,
                             const char *what, size_t number, const char *field,
                             const char *complaint)
 {
-    int length = (int)(ki_field_end(field) - field);
-    char shown[44];
-    int i = 0;
+    size_t length = (size_t)(ki_field_end(field) - field);
+    char shown[KI_SHOWN];
 
-    /* Enough of the field to find it by, and nothing that a terminal would obey. */
-    for (; i < length && i < 40; i++)
-        shown[i] = isprint((unsigned char)field[i]) ? field[i] : '?';
-    memcpy(shown + i, i < length ? "..." : "", i < length ? 4 : 1);
+    ki_show(shown, field, length);
     return ki_fail(err, status, line, "%s %zu is %s, %s", what, number,
                    length > 0 ? shown : "empty", complaint);
 }

@@ -1,4 +1,3 @@
-#include <errno.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdint.h>
@@ -16,8 +15,7 @@ enum { HEADER_MOST = 65536, BLOCK = 4096 };
 
 static koksma_status cut_short(koksma_reader *r, koksma_error *err)
 {
-    if (ferror(r->lines.in))
-        return ki_fail(err, KOKSMA_EIO, 0, "cannot read: %s", strerror(errno));
+    if (ferror(r->lines.in)) return ki_fail_read(err);
     return ki_fail(err, KOKSMA_EFORMAT, 0, "the .npy array is cut short");
 }
 
@@ -37,17 +35,20 @@ static koksma_status take_type(koksma_reader *r, const char *header,
     static const uint16_t probe = 1;
     bool little_host = *(const unsigned char *)&probe == 1;
     const char *type = entry(header, "'descr'");
-    char order;
+    char order, shown[KI_SHOWN];
 
     if (type == NULL || *type != '\'')
         return ki_fail(err, KOKSMA_EFORMAT, 0,
                        "the .npy array is not one of plain numbers");
     order = type[1];
     if (strchr("<>=", order) == NULL || type[2] != 'f' ||
-        (type[3] != '4' && type[3] != '8') || type[4] != '\'')
-        return ki_fail(err, KOKSMA_EFORMAT, 0,
-                       "the .npy array is of type %.*s: only float64 and float32 are read",
-                       (int)strcspn(type, ","), type);
+        (type[3] != '4' && type[3] != '8') || type[4] != '\'') {
+        ki_show(shown, type, strcspn(type, ",}"));
+        return ki_fail(
+            err, KOKSMA_EFORMAT, 0,
+            "the .npy array is of type %s: only float64 and float32 are read",
+            shown);
+    }
     r->single = type[3] == '4';
     r->swapped = order != '=' && (order == '<') != little_host;
     return KOKSMA_OK;

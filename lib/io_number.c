@@ -1,3 +1,4 @@
+#include <ctype.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -76,6 +77,7 @@ const char *ki_number_read(const char *text, double *v)
     char *stop;
 
     if (end != NULL) return end;
+    if (isspace((unsigned char)*text)) return text; /* which strtod would skip */
     *v = strtod(text, &stop);
     return stop;
 }
@@ -87,11 +89,12 @@ static uint64_t decimal(uint64_t m, int s, int q, int digits)
 {
     int scale = digits - 1 - q;
     u128 unit = scale < 20 ? power[scale] : (u128)power[19] * 10u;
-    u128 exact = m * unit, half = (u128)1 << (s - 1);
-    uint64_t d = (uint64_t)((exact + half) >> s);
-    u128 back = (u128)d << s;
-    u128 off = back > exact ? back - exact : exact - back;
+    u128 exact = m * unit, half = (u128)1 << (s - 1), rest = exact & (2 * half - 1);
+    uint64_t d = (uint64_t)(exact >> s);
+    bool up = rest > half || (rest == half && d % 2 == 1); /* ties to even */
+    u128 off = up ? 2 * half - rest : rest;
 
+    d += up;
     if (d < power[digits - 1] || d >= power[digits]) return 0;
     /* Less than half the distance to the neighbour of x; below a power of two
      * that distance is half of the one above. */

@@ -82,6 +82,13 @@ static koksma_status read_number(const ki_lines *lines, const char *s,
                          "not a finite number");
 }
 
+static size_t last_of(columns at)
+{
+    size_t last = at.x > at.y ? at.x : at.y;
+
+    return last > at.set ? last : at.set;
+}
+
 static koksma_status add_row(koksma_table *t, const ki_lines *lines, columns at,
                              labels *l, koksma_error *err)
 {
@@ -102,13 +109,14 @@ static koksma_status add_row(koksma_table *t, const ki_lines *lines, columns at,
             status = read_number(lines, s, column, &t->y[t->rows], err);
         if (column == at.set && status == KOKSMA_OK)
             status = label_of(l, s, &t->set[t->rows], err);
+        found += (size_t)(at.set > 0 && column == at.set);
         found += (size_t)(column == at.x) + (size_t)(column == at.y);
         s = ki_next_field(ki_field_end(s), &comma);
     }
-    if (status == KOKSMA_OK && found < 2)
+    if (status == KOKSMA_OK && found < (at.set > 0 ? 3 : 2))
         status = ki_fail(err, KOKSMA_EFORMAT, lines->number,
                          "%zu columns, but column %zu is wanted", column - 1,
-                         at.x > at.y ? at.x : at.y);
+                         last_of(at));
     if (status == KOKSMA_OK) t->rows++;
     return status;
 }

@@ -5,8 +5,9 @@
 
 #include "num_kernels.h"
 
-#if FLT_RADIX != 2 || DBL_MANT_DIG != 53 || DBL_MAX_EXP != 1024
-#error "Koksma needs IEEE 754 doubles"
+#if FLT_RADIX != 2 || DBL_MANT_DIG != 53 || DBL_MAX_EXP != 1024 ||                 \
+    FLT_EVAL_METHOD != 0
+#error "Koksma needs IEEE 754 doubles, each operation rounded to one"
 #endif
 
 int ki_sum_sign(const double *terms, size_t n)
@@ -56,15 +57,16 @@ ki_twofold ki_volume(const double *corner, size_t dim)
     return v;
 }
 
-/* Whether q*n <= a, up to an uncertainty err that counts against it.  q is
- * within a few ulps of a/n, so the fma loses at most half an ulp of a number
- * far smaller than a; its rounding and that of the sum are counted. */
+/* Whether q*n <= a, an uncertainty a.err counting against it.  With q within two
+ * ulps of a/n and n < 2^51, a.hi - q*n is a multiple of the last place of q and
+ * less than 2^53 of them: the fma is exact, and the sum has the sign of the exact
+ * one.  Where a.err is not 0, q may be further off; the two roundings are then
+ * counted too. */
 static int below(double q, double n, ki_twofold a)
 {
     double r = fma(-q, n, a.hi), s = r + a.lo;
-    double slack = a.err + (fabs(r) + fabs(s)) * DBL_EPSILON;
+    double slack = a.err > 0.0 ? a.err + (fabs(r) + fabs(s)) * DBL_EPSILON : 0.0;
 
-    if (a.lo == 0.0 && a.err == 0.0) slack = 0.0; /* then the sign of r is exact */
     return s >= slack;
 }
 

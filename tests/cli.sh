@@ -47,7 +47,7 @@ t witness 0 "$head${tab}box${tab}inside${tab}corner
 t on-the-faces 0 "2${tab}2${tab}1${tab}1" "" 'printf "0 0\n0 1\n" | koksma-star -q'
 t forms-of-text 0 "3${tab}2${tab}0.41666666666666663${tab}0.4166666666666667" "" \
     'printf "# x y\r\n  0x.8p0,0.5\r\n .25\t25e-2 # here\r\n1 , 1" | koksma-star -q'
-t two-sets 0 "# set${tab}n${tab}dim${tab}lower${tab}upper
+t two-sets 0 "# input${tab}n${tab}dim${tab}lower${tab}upper
 1${tab}1${tab}2${tab}0.75${tab}0.75
 2${tab}1${tab}1${tab}0.5${tab}0.5" "" 'printf "\n.5 .5\n\n\n.5\n\n" | koksma-star'
 t two-files 0 "a:1${tab}1${tab}1${tab}0.5${tab}0.5
@@ -90,6 +90,11 @@ t fit-one-path 0 "exponent${tab}-1${tab}nan${tab}nan${tab}nan${tab}measured
 -1${tab}-1${tab}-1.05${tab}-0.95${tab}nan${tab}none
 curvature${tab}x" "" \
     'printf "16 4\n64 1\n256 .25\n" | koksma-fit -x 1 -y 2 -q | sed "s/^\(curvature.\).*/\1x/"'
+has star-curve 0 '^exponent	-0\.' \
+    'for n in 64 128 256 512; do koksma-points halton -n $n; echo; done | koksma-star |
+     koksma-fit -x n -y upper'
+t power-in-window 0 "" "" \
+    'printf "16 4\n64 1\n256 .25\n" | koksma-fit -x 1 -y 2 -q --from 2^4 >/dev/null'
 has slope 0 'equivalent to -(D+1)/2D = -0.75' \
     'koksma-points halton -n 2^13 --scramble digits --replicates 64 | koksma-eval f2 |
      koksma-error | koksma-fit --explain --margin 0.1'

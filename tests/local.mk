@@ -13,25 +13,97 @@ AM_TESTS_ENVIRONMENT = \
 
 structure_scripts = \
   %D%/cli.sh %D%/floors.sh %D%/headers.sh %D%/man.sh %D%/names.sh %D%/symbols.sh
-TESTS      += $(structure_scripts)
-EXTRA_DIST += $(structure_scripts)
+TESTS      += $(structure_scripts) %D%/replay.sh
+EXTRA_DIST += $(structure_scripts) %D%/replay.sh %D%/corpus
+
+# ---- Unit tests: one Check program a module ------------------------------------
 
 if HAVE_CHECK
 check_LTLIBRARIES += %D%/liboracle.la
-%C%_liboracle_la_SOURCES = %D%/oracle.c %D%/oracle.h
-%C%_liboracle_la_CFLAGS  = $(AM_CFLAGS) $(CHECK_CFLAGS)
+%C%_liboracle_la_SOURCES = \
+  %D%/oracle.c %D%/oracle.h %D%/io_fixture.h %D%/npy_fixture.h
 
-unit_tests = %D%/test_points %D%/test_star
+unit_tests = \
+  %D%/test_curve %D%/test_extra %D%/test_fit %D%/test_gen %D%/test_gen_digits \
+  %D%/test_integrand %D%/test_io %D%/test_io_npy %D%/test_io_npy_bad \
+  %D%/test_io_number %D%/test_io_reader %D%/test_io_table %D%/test_io_write \
+  %D%/test_known %D%/test_num %D%/test_points %D%/test_rng %D%/test_star
+LDADD = %D%/liboracle.la lib/libcore.la $(CHECK_LIBS)
+
+
+if CAN_WRAP
+unit_tests += %D%/test_alloc
+%C%_test_alloc_LDFLAGS = -Wl,--wrap=malloc -Wl,--wrap=calloc -Wl,--wrap=realloc
+endif
+
 check_PROGRAMS += $(unit_tests)
 TESTS          += $(unit_tests)
-
-unit_cflags = $(AM_CFLAGS) $(CHECK_CFLAGS)
-unit_libs   = %D%/liboracle.la lib/libcore.la $(CHECK_LIBS)
-
-%C%_test_points_SOURCES = %D%/test_points.c
-%C%_test_points_CFLAGS  = $(unit_cflags)
-%C%_test_points_LDADD   = $(unit_libs)
-%C%_test_star_SOURCES   = %D%/test_star.c
-%C%_test_star_CFLAGS    = $(unit_cflags)
-%C%_test_star_LDADD     = $(unit_libs)
+AM_CPPFLAGS    += $(CHECK_CFLAGS)
 endif
+
+.PHONY: check-big check-valgrind check-sanitize
+# The cases tagged big, and twenty times the random sets.
+check-big:
+	CK_EXCLUDE_TAGS=none KOKSMA_TEST_SCALE=$${KOKSMA_TEST_SCALE-20} $(MAKE) check
+
+# CK_FORK=no, and libtool's execute mode: valgrind is to see the test and not the
+# shell script that libtool puts in front of it.
+check-valgrind: $(check_PROGRAMS)
+	for test in $(unit_tests); do \
+	  CK_FORK=no CK_EXCLUDE_TAGS=big CK_DEFAULT_TIMEOUT=600 top_srcdir='$(top_srcdir)' \
+	    KOKSMA_EXTRA_SETS= KOKSMA_UNDER_VALGRIND=1 \
+	    $(LIBTOOL) --mode=execute $(VALGRIND) -q --error-exitcode=9 --leak-check=full \
+	    ./$$test || [ $$? -eq 77 ] || exit 1; \
+	done
+
+# A build of its own, in sanitize/, with its own flags.
+check-sanitize:
+	$(MKDIR_P) sanitize
+	cd sanitize && { test -f Makefile || $(abs_top_srcdir)/configure --disable-shared \
+	  CC='$(CC)' CFLAGS='-g -O1 -fno-omit-frame-pointer -fsanitize=address,undefined \
+	  -fno-sanitize-recover=all'; } && $(MAKE) check
+
+# ---- Fuzzing: the targets are replayed over the corpus in make check -----------
+
+fuzz_targets    = points table
+check_PROGRAMS += %D%/replay_points %D%/replay_table
+%C%_replay_points_SOURCES = %D%/fuzz_points.c %D%/fuzz_main.c
+%C%_replay_points_LDADD   = lib/libcore.la
+%C%_replay_table_SOURCES  = %D%/fuzz_table.c %D%/fuzz_main.c
+%C%_replay_table_LDADD    = lib/libcore.la
+
+.PHONY: fuzz
+FUZZ_SECONDS = 30
+# Takes CC=clang, for its libFuzzer; what it finds new stays in fuzz/.
+fuzz: $(BUILT_SOURCES)
+	for target in $(fuzz_targets); do \
+	  $(MKDIR_P) fuzz/$$target && \
+	  $(CC) -g -O1 -ffp-contract=off -fsanitize=fuzzer,address,undefined \
+	    $(DEFS) $(AM_CPPFLAGS) -Ilib $(top_srcdir)/tests/fuzz_$$target.c \
+	    $(top_srcdir)/lib/*.c -lm -o fuzz/fuzz_$$target && \
+	  fuzz/fuzz_$$target -max_total_time=$(FUZZ_SECONDS) -verbosity=0 \
+	    -print_final_stats=1 fuzz/$$target $(top_srcdir)/tests/corpus/$$target || exit 1; \
+	done
+
+clean-local: clean-fuzz
+.PHONY: clean-fuzz
+clean-fuzz:
+	rm -rf fuzz sanitize
+
+# ---- Benches ---------------------------------------------------------------------
+
+benches = %D%/bench_gen %D%/bench_io %D%/bench_star %D%/bench_fit
+EXTRA_PROGRAMS += $(benches)
+CLEANFILES     += $(benches)
+%C%_bench_gen_SOURCES  = %D%/bench_gen.c %D%/bench.h
+%C%_bench_gen_LDADD    = lib/libcore.la
+%C%_bench_io_SOURCES   = %D%/bench_io.c %D%/bench.h
+%C%_bench_io_LDADD     = lib/libcore.la
+%C%_bench_star_SOURCES = %D%/bench_star.c %D%/bench.h
+%C%_bench_star_LDADD   = lib/libcore.la
+%C%_bench_fit_SOURCES  = %D%/bench_fit.c %D%/bench.h
+%C%_bench_fit_LDADD    = lib/libcore.la
+
+.PHONY: bench
+bench: $(benches)
+	for bench in $(benches); do ./$$bench || exit 1; done

@@ -22,15 +22,9 @@ void *__wrap_realloc(void *old, size_t size);
 
 static long granted = -1; /* allocations until one is refused; negative: all */
 
-static int refused(void)
-{
-    return granted >= 0 && granted-- == 0;
-}
+static int refused(void) { return granted >= 0 && granted-- == 0; }
 
-void *__wrap_malloc(size_t size)
-{
-    return refused() ? NULL : __real_malloc(size);
-}
+void *__wrap_malloc(size_t size) { return refused() ? NULL : __real_malloc(size); }
 
 void *__wrap_calloc(size_t count, size_t size)
 {
@@ -55,7 +49,8 @@ static long exhaust(koksma_status (*job)(koksma_error *err))
         if (status == KOKSMA_OK) return most;
         ck_assert_int_eq(status, KOKSMA_ENOMEM);
         ck_assert_int_eq(err.status, KOKSMA_ENOMEM);
-        ck_assert_msg(strncmp(err.text, "not enough memory for ", 22) == 0, "%s", err.text);
+        ck_assert_msg(strncmp(err.text, "not enough memory for ", 22) == 0, "%s",
+                      err.text);
     }
     ck_abort_msg("1000 allocations and no end");
     return 0;
@@ -115,7 +110,8 @@ static koksma_status read_job(const char *text, size_t size, koksma_error *err)
 
 static koksma_status text_job(koksma_error *err)
 {
-    static const char text[] = "# a comment\n# koksma: a=1\n0.5 1\n0.25 2\n\n0.5 0.5 7\n";
+    static const char text[] =
+        "# a comment\n# koksma: a=1\n0.5 1\n0.25 2\n\n0.5 0.5 7\n";
 
     return read_job(text, sizeof text - 1, err);
 }
@@ -127,7 +123,8 @@ static koksma_status npy_job(koksma_error *err)
 
     memset(text, ' ', 128);
     memcpy(text, "\x93NUMPY\x01\x00\x76\x00", 10);
-    memcpy(text + 10, "{'descr': '<f8', 'fortran_order': True, 'shape': (2, 2), }", 58);
+    memcpy(text + 10, "{'descr': '<f8', 'fortran_order': True, 'shape': (2, 2), }",
+           58);
     text[127] = '\n';
     memcpy(text + 128, rows, sizeof rows);
     return read_job(text, sizeof text, err);

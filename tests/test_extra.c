@@ -28,7 +28,8 @@ static void check_file(const char *folder, const char *file, size_t dim, size_t 
     snprintf(name, sizeof name, "%s/sets/%s", folder, file);
     in = fopen(name, "r");
     ck_assert_msg(in != NULL, "%s cannot be read", name);
-    ck_assert_int_eq(koksma_reader_open(&reader, in, KOKSMA_POINTS, &err), KOKSMA_OK);
+    ck_assert_int_eq(koksma_reader_open(&reader, in, KOKSMA_POINTS, &err),
+                     KOKSMA_OK);
     status = koksma_set_read(&set, reader, &err);
     ck_assert_msg(status == KOKSMA_OK, "%s:%zu: %s", file, err.line, err.text);
     ck_assert_uint_eq(set.n, n);
@@ -36,8 +37,8 @@ static void check_file(const char *folder, const char *file, size_t dim, size_t 
     status = koksma_star(&r, koksma_set_view(&set), &opts, &err);
     ck_assert_msg(dim > 2 || status == KOKSMA_OK, "%s: %s", file, err.text);
     ck_assert_msg(r.value.lower <= dstar + 1e-9 && r.value.upper >= dstar - 1e-9,
-                  "%s: [%.17g, %.17g] is not %.17g", file, r.value.lower, r.value.upper,
-                  dstar);
+                  "%s: [%.17g, %.17g] is not %.17g", file, r.value.lower,
+                  r.value.upper, dstar);
     koksma_set_free(&set);
     koksma_reader_close(reader);
     fclose(in);
@@ -58,8 +59,9 @@ START_TEST(sets_of_other_programs)
         double dstar;
 
         if (line[0] == '#') continue;
-        ck_assert_msg(sscanf(line, "%255s %zu %zu %lf", file, &dim, &n, &dstar) == 4, "%s",
-                      line);
+        ck_assert_msg(sscanf(line, "%255s %zu %zu %lf", file, &dim, &n, &dstar) ==
+                          4,
+                      "%s", line);
         check_file(folder, file, dim, n, dstar);
         rows++;
     }

@@ -36,7 +36,8 @@ static double *points_of(const known *k)
         }
         return x;
     }
-    ck_assert_int_eq(koksma_gen_open(&g, koksma_gen_find(k->family), &o, &err), KOKSMA_OK);
+    ck_assert_int_eq(koksma_gen_open(&g, koksma_gen_find(k->family), &o, &err),
+                     KOKSMA_OK);
     ck_assert_int_eq(koksma_gen_fill(g, x, 0, (size_t)k->n, &err), KOKSMA_OK);
     koksma_gen_close(g);
     return x;
@@ -53,9 +54,10 @@ static bool check_known(const known *k, double work)
 
     free(x);
     ck_assert(status == KOKSMA_OK || status == KOKSMA_STOPPED);
-    ck_assert_msg(r.value.lower <= k->dstar + slack && r.value.upper >= k->dstar - slack,
-                  "%s dim %zu n %zu: [%.17g, %.17g] is not %.17g", k->family, k->dim,
-                  (size_t)k->n, r.value.lower, r.value.upper, k->dstar);
+    ck_assert_msg(r.value.lower <= k->dstar + slack &&
+                      r.value.upper >= k->dstar - slack,
+                  "%s dim %zu n %zu: [%.17g, %.17g] is not %.17g", k->family,
+                  k->dim, (size_t)k->n, r.value.lower, r.value.upper, k->dstar);
     return status == KOKSMA_OK;
 }
 
@@ -74,8 +76,8 @@ static void check_table(double work, int finished_least)
         unsigned long long n, start;
 
         if (line[0] == '#') continue;
-        ck_assert_msg(sscanf(line, "%15s %zu %llu %llu %lf %d", k.family, &k.dim, &n, &start,
-                             &k.dstar, &k.digits) == 6,
+        ck_assert_msg(sscanf(line, "%15s %zu %llu %llu %lf %d", k.family, &k.dim,
+                             &n, &start, &k.dstar, &k.digits) == 6,
                       "%s", line);
         k.n = n;
         k.start = start;
@@ -86,16 +88,10 @@ static void check_table(double work, int finished_least)
     ck_assert_int_ge(finished, finished_least);
 }
 
-START_TEST(published_values)
-{
-    check_table(WORK, 10);
-}
+START_TEST(published_values) { check_table(WORK, 10); }
 END_TEST
 
-START_TEST(published_values_with_patience)
-{
-    check_table(BIG_WORK, 13);
-}
+START_TEST(published_values_with_patience) { check_table(BIG_WORK, 13); }
 END_TEST
 
 /* (i/2^m, phi_2(i)): 2^m D* = m/3 + 13/9 - (-1)^m 4/(9 2^m) [Halton, Zaremba 1969;
@@ -107,8 +103,8 @@ START_TEST(hammersley)
         double n = ldexp(1.0, m), sign = m % 2 ? -1.0 : 1.0;
         double dstar = (m / 3.0 + 13.0 / 9.0 - sign * 4.0 / (9.0 * n)) / n;
 
-        ck_assert(
-            check_known(&(known){"hammersley", 2, (uint64_t)1 << m, 0, dstar, 15}, WORK));
+        ck_assert(check_known(
+            &(known){"hammersley", 2, (uint64_t)1 << m, 0, dstar, 15}, WORK));
     }
 }
 END_TEST
@@ -125,7 +121,8 @@ START_TEST(van_der_corput)
 
             sum += fabs(q - rint(q));
         }
-        ck_assert(check_known(&(known){"halton", 1, n, 0, sum / (double)n, 15}, WORK));
+        ck_assert(
+            check_known(&(known){"halton", 1, n, 0, sum / (double)n, 15}, WORK));
     }
 }
 END_TEST
@@ -139,8 +136,10 @@ START_TEST(grids)
             double plain = 1.0 - pow(1.0 - 1.0 / (double)m, (double)dim);
             double centred = 1.0 - pow(1.0 - 0.5 / (double)m, (double)dim);
 
-            ck_assert(check_known(&(known){"grid", dim, n, 0, plain, 15}, BIG_WORK));
-            ck_assert(check_known(&(known){"centred", dim, n, 0, centred, 15}, BIG_WORK));
+            ck_assert(
+                check_known(&(known){"grid", dim, n, 0, plain, 15}, BIG_WORK));
+            ck_assert(
+                check_known(&(known){"centred", dim, n, 0, centred, 15}, BIG_WORK));
         }
 }
 END_TEST

@@ -1,0 +1,404 @@
+/* Radical inverses and Sobol' sequences against integers: digits turned round, long
+ * division, the recurrence of the direction numbers, and what sequences promise of
+ * their intervals. */
+#include <check.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "gen_kernels.h"
+#include "oracle.h"
+
+enum { ROOM = 1 << 17 };
+
+static double room[ROOM];
+
+/* r/p < 1 without the bits behind the first 53 that count: a long division, in
+ * which every sum of powers of 1/2 is exact. */
+static double truncated(ki_u128 r, ki_u128 p)
+{
+    double v = 0.0, unit = 0.5;
+
+    for (int bits = 0; r > 0 && bits<53; bits += v> 0.0, unit /= 2.0) {
+        r *= 2;
+        if (r < p) continue;
+        r -= p;
+        v += unit;
+    }
+    return v;
+}
+
+static double inverse(uint64_t index, uint32_t base)
+{
+    ki_u128 r = 0, p = 1;
+
+    for (; index > 0; index /= base, p *= base)
+        r = r * base + index % base;
+    return truncated(r, p);
+}
+
+static koksma_gen *open_family(const char *name, const koksma_gen_opts *o)
+{
+    koksma_gen *g = NULL;
+    koksma_error err = {0};
+    koksma_status status = koksma_gen_open(&g, koksma_gen_find(name), o, &err);
+
+    ck_assert_msg(status == KOKSMA_OK, "%s: %s", name, err.text);
+    return g;
+}
+
+/* Points first, ..., first + count - 1 of o's. */
+static void fill_some(double *x, const char *name, koksma_gen_opts o,
+                      uint64_t first, size_t count)
+{
+    koksma_gen *g = open_family(name, &o);
+
+    if (count * o.dim > ROOM) abort();
+    ck_assert_int_eq(koksma_gen_fill(g, x, first, count, NULL), KOKSMA_OK);
+    koksma_gen_close(g);
+}
+
+static void fill_all(double *x, const char *name, koksma_gen_opts o)
+{
+    fill_some(x, name, o, 0, (size_t)o.n);
+}
+
+static const uint32_t bases[] = {2, 3, 5, 7, 29, 541, 7919, 4294967291u};
+
+/* Where sums of powers of 1/b in doubles return 1, and where integers run out. */
+static const struct range {
+    uint64_t start, n;
+} ranges[] = {
+    {0, 2001},
+    {((uint64_t)1 << 53) - 500, 1000},
+    {((uint64_t)1 << 54) - 20, 40},
+    {2384185791015625u - 20, 40},  /* 5^22 */
+    {16677181699666569u - 20, 40}, /* 3^34 */
+    {4294967291u - 20, 40},        /* and its square: 2^64 - 10*2^32 + 25 */
+    {18446744030759878681u - 20, 40},
+    {UINT64_MAX - 199, 200},
+};
+
+START_TEST(radical_inverses)
+{
+    const struct range *range = &ranges[_i];
+    koksma_gen_opts o = {
+        .dim = 8, .n = range->n, .start = range->start, .bases = bases};
+
+    fill_all(room, "halton", o);
+    for (uint64_t i = 0; i < o.n; i++)
+        for (size_t k = 0; k < 8; k++) {
+            double v = room[i * 8 + k], want = inverse(o.start + i, bases[k]);
+
+            if (v != want || v >= 1.0)
+                ck_abort_msg("base %ju, index %ju: %a, not %a", (uintmax_t)bases[k],
+                             (uintmax_t)(o.start + i), v, want);
+        }
+}
+END_TEST
+
+/* (b^k - 1)/b^k, and by name what loops over doubles get wrong. */
+START_TEST(documented_values)
+{
+    static const uint32_t five[] = {5}, large[] = {257};
+    koksma_gen_opts o = {
+        .dim = 1, .n = 1, .start = 2384185791015624u, .bases = five};
+    double x;
+
+    fill_all(&x, "halton", o);
+    ck_assert(x == 0.99999999999999956);
+    o.start = 16974847;
+    o.bases = large;
+    fill_all(&x, "halton", o);
+    ck_assert(x == 0.98832684847825514);
+    o.start = 0;
+    fill_all(&x, "halton", o);
+    ck_assert(x == 0.0 && !signbit(x));
+}
+END_TEST
+
+START_TEST(first_primes)
+{
+    koksma_gen_opts o = {.dim = 1000, .n = 2};
+    uint32_t p = 1;
+
+    fill_all(room, "halton", o);
+    for (size_t k = 0; k < o.dim; k++) {
+        bool prime = false;
+
+        while (!prime) {
+            prime = ++p > 1;
+            for (uint32_t d = 2; d * d <= p; d++)
+                if (p % d == 0) prime = false;
+        }
+        ck_assert(room[k] == 0.0 && room[o.dim + k] == truncated(1, p));
+    }
+    ck_assert_uint_eq(p, 7919);
+}
+END_TEST
+
+/* Ratios either side of where the kernel may change its method, at 2^53. */
+START_TEST(ratios)
+{
+    oracle_rng rng = oracle_rng_start(oracle_seed(), 0);
+
+    for (int i = 0; i < 20000; i++) {
+        ki_u128 p = (ki_u128)1 << (1 + oracle_below(&rng, 126)), r;
+
+        p += oracle_below(&rng, 9);
+        if (p > 8) p -= 4;
+        if (i % 2 == 0) p -= (p >> 1) / (1 + oracle_below(&rng, 1000));
+        r = (ki_u128)oracle_below(&rng, (size_t)1 << 53) * (p / ((ki_u128)1 << 53));
+        r += oracle_below(&rng, (size_t)(p < 1000 ? p : 1000));
+        if (i % 4 == 1) r = p - 1 - r % p;
+        r %= p;
+
+        double v = ki_ratio(r, p);
+
+        if (v != truncated(r, p)) ck_abort_msg("ratio %d: %a", i, v);
+    }
+}
+END_TEST
+
+/* Each place's table is a permutation, and the value is that of its digits: all
+ * that 64 bits have, zeros in front included. */
+START_TEST(permuted_digits)
+{
+    static const uint32_t tried[] = {2, 3, 4, 5, 29, 541, 65537};
+    ki_radical r = {tried[_i], NULL};
+    unsigned digits = ki_radical_digits(r.base);
+    bool *seen = calloc(r.base, sizeof *seen);
+    ki_u128 p = 1;
+
+    for (unsigned j = 0; j < digits; j++)
+        p *= r.base;
+    ck_assert(p > UINT64_MAX && p / r.base <= UINT64_MAX);
+    ck_assert_int_eq(ki_radical_permute(&r, oracle_seed(), 7), 0);
+    for (unsigned j = 0; j < digits; j++) {
+        memset(seen, 0, r.base * sizeof *seen);
+        for (uint32_t d = 0; d < r.base; d++)
+            seen[r.permutation[j * r.base + d]] = true;
+        ck_assert_ptr_null(memchr(seen, 0, r.base * sizeof *seen));
+    }
+    for (size_t at = 0; at < sizeof ranges / sizeof *ranges; at++) {
+        ki_radical_fill(&r, room, 2, ranges[at].start, (size_t)ranges[at].n);
+        for (uint64_t i = 0; i < ranges[at].n; i++) {
+            uint64_t index = ranges[at].start + i;
+            ki_u128 image = 0;
+            double v = room[2 * i], low;
+
+            for (unsigned j = 0; j < digits; j++, index /= r.base)
+                image = image * r.base + r.permutation[j * r.base + index % r.base];
+            low = truncated(image, p);
+            if (!(v < 1.0 && v >= nextafter(nextafter(low, 0.0), 0.0) &&
+                  v <= nextafter(nextafter(low, 2.0), 2.0)))
+                ck_abort_msg("index %ju: %a, not %a",
+                             (uintmax_t)(ranges[at].start + i), v, low);
+        }
+    }
+    free(seen);
+    free(r.permutation);
+}
+END_TEST
+
+/* One point in each interval [j/b^m, (j+1)/b^m) for every block of b^m indices
+ * that starts at a multiple of b^m, permuted or not. */
+START_TEST(scrambled_intervals)
+{
+    static const unsigned places[] = {8, 8, 5};
+    static bool taken[6561];
+
+    for (uint64_t round = 0; round < 30; round++)
+        for (size_t k = 0; k < 3; k++) {
+            koksma_gen_opts o = {.dim = 3,
+                                 .n = 1,
+                                 .seed = 1,
+                                 .replicate = round,
+                                 .scramble = KOKSMA_SCRAMBLE_DIGITS};
+
+            for (unsigned m = 1; m <= places[k]; m++) {
+                o.n *= bases[k];
+                o.start = (round + 1) * (round + 1) * o.n;
+                if (m < places[k] && m % 3 != 2) continue;
+                fill_all(room, "halton", o);
+                memset(taken, 0, sizeof taken);
+                for (uint64_t i = 0; i < o.n; i++) {
+                    size_t j = (size_t)(room[i * 3 + k] * (double)o.n);
+
+                    if (taken[j]) ck_abort_msg("interval %zu twice", j);
+                    taken[j] = true;
+                }
+            }
+        }
+}
+END_TEST
+
+/* Over many seeds: the leading digit's permutation in base 3 is any of six, the
+ * first two places in base 2 and in base 3 do not depend on each other or on the
+ * other base.  5 spreads of chi-square each. */
+START_TEST(permutations_are_uniform)
+{
+    size_t six[6] = {0}, cell[2 * 2 * 3 * 3] = {0};
+    double chi = 0.0, most = 36.0 + 5.0 * sqrt(72.0);
+    enum { DRAWS = 7200 };
+
+    for (uint64_t i = 0; i < DRAWS; i++) {
+        koksma_gen_opts o = {.dim = 2, .n = 3, .scramble = KOKSMA_SCRAMBLE_DIGITS};
+        const double *x = room;
+
+        *(i % 2 == 0 ? &o.seed : &o.replicate) = i / 2;
+        fill_all(room, "halton", o);
+        six[(x[1] > x[3]) + 2 * ((x[1] > x[5]) + (x[3] > x[5]))]++;
+        cell[(size_t)(x[0] * 4.0) * 9 + (size_t)(x[1] * 9.0)]++;
+    }
+    for (size_t i = 0; i < 6; i++)
+        chi += pow((double)six[i] - DRAWS / 6.0, 2.0) / (DRAWS / 6.0);
+    ck_assert_double_lt(chi, 6.0 + 5.0 * sqrt(12.0));
+    chi = 0.0;
+    for (size_t i = 0; i < 36; i++)
+        chi += pow((double)cell[i] - DRAWS / 36.0, 2.0) / (DRAWS / 36.0);
+    ck_assert_double_lt(chi, most);
+}
+END_TEST
+
+/* Rows of [Joe, Kuo 2008]'s table: dimension, degree, coefficients, m_1 ... m_s. */
+static const struct row {
+    size_t k;
+    unsigned s, a;
+    uint64_t m[8];
+} rows[] = {
+    {1, 1, 0, {1}},
+    {2, 2, 1, {1, 3}},
+    {3, 3, 1, {1, 3, 1}},
+    {4, 3, 2, {1, 1, 1}},
+    {5, 4, 1, {1, 1, 3, 3}},
+    {6, 4, 4, {1, 3, 5, 13}},
+    {19, 7, 1, {1, 3, 7, 11, 23, 15, 103}},
+    {37, 8, 14, {1, 3, 1, 15, 31, 13, 49, 245}},
+    {49, 8, 97, {1, 1, 1, 3, 23, 43, 57, 177}},
+};
+
+/* m_j = 2 a_1 m_(j-1) ^ ... ^ 2^(s-1) a_(s-1) m_(j-s+1) ^ 2^s m_(j-s) ^ m_(j-s),
+ * and the point is the exclusive or of the m_j/2^j over the bits of the index's
+ * Gray code, all bits kept until the end. */
+static double sobol(const struct row *row, uint64_t index)
+{
+    uint64_t m[65], gray = index ^ index >> 1, bits = 0;
+
+    for (unsigned j = 1; j <= 64; j++) {
+        if (j <= row->s) {
+            m[j] = row->m[j - 1];
+        } else {
+            m[j] = m[j - row->s] ^ m[j - row->s] << row->s;
+            for (unsigned i = 1; i < row->s; i++)
+                if (row->a >> (row->s - 1 - i) & 1) m[j] ^= m[j - i] << i;
+        }
+        if (gray >> (j - 1) & 1) bits ^= m[j] << (64 - j);
+    }
+    return truncated(bits, (ki_u128)1 << 64);
+}
+
+START_TEST(sobol_by_recurrence)
+{
+    static const struct range ranges_of[] = {
+        {0, 1024},
+        {((uint64_t)1 << 53) - 100, 200},
+        {((uint64_t)1 << 63) - 100, 200},
+        {UINT64_MAX - 199, 200},
+    };
+
+    for (size_t at = 0; at < 4; at++) {
+        koksma_gen_opts o = {
+            .dim = 50, .n = ranges_of[at].n, .start = ranges_of[at].start};
+
+        fill_all(room, "sobol", o);
+        for (uint64_t i = 0; i < o.n; i++)
+            for (size_t j = 0; j < sizeof rows / sizeof *rows; j++) {
+                double v = room[i * 50 + rows[j].k];
+
+                if (v != sobol(&rows[j], o.start + i))
+                    ck_abort_msg("dimension %zu, index %ju: %a", rows[j].k + 1,
+                                 (uintmax_t)(o.start + i), v);
+            }
+    }
+}
+END_TEST
+
+/* The first points in three dimensions on the page of Joe and Kuo's program. */
+START_TEST(sobol_as_published)
+{
+    static const double want[] = {
+        0,     0,     0,     0.5,   0.5,    0.5,    0.75,   0.25,   0.25,   0.25,
+        0.75,  0.75,  0.375, 0.375, 0.625,  0.875,  0.875,  0.125,  0.625,  0.125,
+        0.875, 0.125, 0.625, 0.375, 0.1875, 0.3125, 0.9375, 0.6875, 0.8125, 0.4375,
+    };
+
+    fill_all(room, "sobol", (koksma_gen_opts){.dim = 3, .n = 10});
+    for (size_t i = 0; i < 30; i++)
+        ck_assert(room[i] == want[i]);
+}
+END_TEST
+
+/* The first 2^10 points of every coordinate are the j/2^10, each once; and any 2^m
+ * points from a multiple of 2^m on are a net in dimensions 1 and 2. */
+START_TEST(sobol_nets)
+{
+    static bool taken[1024];
+
+    fill_all(room, "sobol", (koksma_gen_opts){.dim = 50, .n = 1024});
+    for (size_t k = 0; k < 50; k++) {
+        memset(taken, 0, sizeof taken);
+        for (size_t i = 0; i < 1024; i++) {
+            double j = room[i * 50 + k] * 1024.0;
+
+            ck_assert(j == floor(j) && !taken[(size_t)j]);
+            taken[(size_t)j] = true;
+        }
+    }
+    for (unsigned m = 0; m <= 10; m++)
+        for (uint64_t block = 0; block < 4; block++) {
+            uint64_t n = (uint64_t)1 << m, at = block < 3 ? block : 12345;
+
+            fill_all(room, "sobol",
+                     (koksma_gen_opts){.dim = 2, .n = n, .start = at * n});
+            for (unsigned a = 0; a <= m; a++) {
+                memset(taken, 0, sizeof taken);
+                for (uint64_t i = 0; i < n; i++)
+                    taken[(size_t)ldexp(room[2 * i], (int)a) << (m - a) |
+                          (size_t)ldexp(room[2 * i + 1], (int)(m - a))] = true;
+                ck_assert_ptr_null(memchr(taken, 0, n));
+            }
+        }
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("gen_digits");
+    SRunner *runner = srunner_create(suite);
+    TCase *tc = tcase_create("radical inverses");
+
+    suite_add_tcase(suite, tc);
+    tcase_add_loop_test(tc, radical_inverses, 0, sizeof ranges / sizeof *ranges);
+    tcase_add_test(tc, documented_values);
+    tcase_add_test(tc, first_primes);
+    tcase_add_test(tc, ratios);
+
+    tc = tcase_create("permuted digits");
+    suite_add_tcase(suite, tc);
+    tcase_add_loop_test(tc, permuted_digits, 0, 7);
+    tcase_add_test(tc, scrambled_intervals);
+    tcase_add_test(tc, permutations_are_uniform);
+
+    tc = tcase_create("sobol");
+    suite_add_tcase(suite, tc);
+    tcase_add_test(tc, sobol_by_recurrence);
+    tcase_add_test(tc, sobol_as_published);
+    tcase_add_test(tc, sobol_nets);
+    srunner_run_all(runner, CK_ENV);
+
+    int failed = srunner_ntests_failed(runner);
+
+    srunner_free(runner);
+    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}
