@@ -35,13 +35,12 @@ static koksma_status take_type(koksma_reader *r, const char *header,
     static const uint16_t probe = 1;
     bool little_host = *(const unsigned char *)&probe == 1;
     const char *type = entry(header, "'descr'");
-    char order, shown[KI_SHOWN];
+    char shown[KI_SHOWN];
 
     if (type == NULL || *type != '\'')
         return ki_fail(err, KOKSMA_EFORMAT, 0,
                        "the .npy array is not one of plain numbers");
-    order = type[1];
-    if (strchr("<>=", order) == NULL || type[2] != 'f' ||
+    if (strlen(type) < 5 || strchr("<>=", type[1]) == NULL || type[2] != 'f' ||
         (type[3] != '4' && type[3] != '8') || type[4] != '\'') {
         ki_show(shown, type, strcspn(type, ",}"));
         return ki_fail(
@@ -50,7 +49,7 @@ static koksma_status take_type(koksma_reader *r, const char *header,
             shown);
     }
     r->single = type[3] == '4';
-    r->swapped = order != '=' && (order == '<') != little_host;
+    r->swapped = type[1] != '=' && (type[1] == '<') != little_host;
     return KOKSMA_OK;
 }
 
@@ -91,41 +90,47 @@ static koksma_status take_shape(koksma_reader *r, const char *header,
     return KOKSMA_OK;
 }
 
-/* Read `count` items as doubles. */
-static koksma_status read_items(koksma_reader *r, double *out, size_t count,
-                                koksma_error *err)
+static void swap_bytes(double *x, size_t count)
 {
-    FILE *in = r->lines.in;
+    for (size_t i = 0; i < count; i++) {
+        uint64_t bits;
 
-    if (!r->single && fread(out, sizeof *out, count, in) != count)
-        return cut_short(r, err);
-    if (r->single) {
-        float block[BLOCK];
+        memcpy(&bits, &x[i], sizeof bits);
+        bits = __builtin_bswap64(bits);
+        memcpy(&x[i], &bits, sizeof bits);
+    }
+}
 
-        for (size_t done = 0; done < count; done += BLOCK) {
-            size_t now = count - done < BLOCK ? count - done : BLOCK;
+/* Read up to `count` float32 as doubles; returns how many there were. */
+static size_t read_singles(koksma_reader *r, double *out, size_t count)
+{
+    float block[BLOCK];
+    size_t done = 0, got = BLOCK;
 
-            if (fread(block, sizeof *block, now, in) != now)
-                return cut_short(r, err);
-            for (size_t i = 0; i < now; i++) {
-                uint32_t bits;
+    for (; done < count && got == BLOCK; done += got) {
+        got = fread(block, sizeof *block,
+                    count - done < BLOCK ? count - done : BLOCK, r->lines.in);
+        for (size_t i = 0; i < got; i++) {
+            uint32_t bits;
 
-                memcpy(&bits, &block[i], sizeof bits);
-                if (r->swapped) bits = __builtin_bswap32(bits);
-                memcpy(&block[i], &bits, sizeof bits);
-                out[done + i] = (double)block[i];
-            }
-        }
-    } else if (r->swapped) {
-        for (size_t i = 0; i < count; i++) {
-            uint64_t bits;
-
-            memcpy(&bits, &out[i], sizeof bits);
-            bits = __builtin_bswap64(bits);
-            memcpy(&out[i], &bits, sizeof bits);
+            memcpy(&bits, &block[i], sizeof bits);
+            if (r->swapped) bits = __builtin_bswap32(bits);
+            memcpy(&block[i], &bits, sizeof bits);
+            out[done + i] = (double)block[i];
         }
     }
-    return KOKSMA_OK;
+    return done;
+}
+
+/* The same for items of either size. */
+static size_t read_items(koksma_reader *r, double *out, size_t count)
+{
+    size_t got;
+
+    if (r->single) return read_singles(r, out, count);
+    got = fread(out, sizeof *out, count, r->lines.in);
+    if (r->swapped) swap_bytes(out, got);
+    return got;
 }
 
 /* A Fortran-order array is read whole, and turned. */
@@ -141,8 +146,8 @@ static koksma_status read_columns(koksma_reader *r, koksma_error *err)
 
         if (ki_grow((void **)&by_column, &room, have + now, sizeof *by_column) != 0)
             status = ki_fail_memory(err, "a .npy array");
-        else
-            status = read_items(r, by_column + have, now, err);
+        else if (read_items(r, by_column + have, now) != now)
+            status = cut_short(r, err);
         have += now;
     }
     turned = status == KOKSMA_OK ? ki_alloc(all, sizeof *turned) : NULL;
@@ -238,15 +243,19 @@ koksma_status ki_npy_rows(koksma_reader *r, double *rows, size_t room, size_t *g
                           koksma_error *err)
 {
     size_t left = r->rows - r->row, now = left < room ? left : room;
+    size_t items = now * r->columns, have = items;
     koksma_status status = KOKSMA_OK;
 
+    *got = 0;
+    if (now == 0) return KOKSMA_OK;
     if (r->transposed != NULL)
-        memcpy(rows, r->transposed + r->row * r->columns,
-               now * r->columns * sizeof *rows);
-    else if (now > 0)
-        status = read_items(r, rows, now * r->columns, err);
-    for (size_t i = 0; i < now && status == KOKSMA_OK; i++)
+        memcpy(rows, r->transposed + r->row * r->columns, items * sizeof *rows);
+    else
+        have = read_items(r, rows, items);
+    /* What did arrive is looked at first, whatever the block. */
+    for (size_t i = 0; i < have / r->columns && status == KOKSMA_OK; i++)
         status = check_row(r, rows + i * r->columns, r->row + i + 1, err);
+    if (status == KOKSMA_OK && have < items) status = cut_short(r, err);
     if (status != KOKSMA_OK) return status;
     r->row += now;
     *got = now;

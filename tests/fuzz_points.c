@@ -112,7 +112,9 @@ static void read_sets(const sets *want, const uint8_t *bytes, size_t size,
                 must(isfinite(v) && bits_of(v) == bits_of(want->rows[at]));
             }
     }
-    must(s.status == want->status && s.count == want->count);
+    /* Of two faults, the first to be met depends on how many rows are asked for. */
+    must((s.status == KOKSMA_OK) == (want->status == KOKSMA_OK));
+    must(s.count == want->count);
     koksma_set_free(&set);
     koksma_reader_close(r);
     fclose(in);

@@ -57,11 +57,13 @@ check-valgrind: $(check_PROGRAMS)
 	done
 
 # A build of its own, in sanitize/, with its own flags.
+SANITIZE = -g -O1 -fno-omit-frame-pointer -fsanitize=address,undefined \
+  -fno-sanitize-recover=all
 check-sanitize:
 	$(MKDIR_P) sanitize
-	cd sanitize && { test -f Makefile || $(abs_top_srcdir)/configure --disable-shared \
-	  CC='$(CC)' CFLAGS='-g -O1 -fno-omit-frame-pointer -fsanitize=address,undefined \
-	  -fno-sanitize-recover=all'; } && $(MAKE) check
+	cd sanitize && { test -f Makefile || \
+	  $(abs_top_srcdir)/configure --disable-shared CC='$(CC)' CFLAGS='$(SANITIZE)'; } && \
+	  $(MAKE) check
 
 # ---- Fuzzing: the targets are replayed over the corpus in make check -----------
 

@@ -240,7 +240,8 @@ START_TEST(random_points)
 }
 END_TEST
 
-static const uint32_t base_one[] = {3, 1}, base_zero[] = {0}, shared[] = {4, 9, 6};
+static const uint32_t base_one[] = {3, 1}, base_zero[] = {0}, shared[] = {4, 9, 6},
+                      twice[] = {3, 5, 5};
 
 static const struct refusal {
     const char *family;
@@ -282,6 +283,9 @@ static const struct refusal {
     {"halton",
      {.dim = 3, .n = 1, .bases = shared},
      "bases 4 and 6 have a common factor"},
+    {"halton",
+     {.dim = 3, .n = 1, .bases = twice},
+     "bases 5 and 5 have a common factor"},
     {"hammersley",
      {.dim = 4, .n = 1, .bases = shared},
      "bases 4 and 6 have a common factor"},

@@ -196,6 +196,11 @@ START_TEST(permuted_digits)
                              (uintmax_t)(ranges[at].start + i), v, low);
         }
     }
+    /* All digits the highest: the value that rounds up to 1. */
+    for (size_t at = 0; at < digits * (size_t)r.base; at++)
+        r.permutation[at] = r.base - 1 - (uint32_t)(at % r.base);
+    ki_radical_fill(&r, room, 1, 0, 2);
+    ck_assert(room[0] == 1.0 - 0x1p-53 && room[1] < 1.0);
     free(seen);
     free(r.permutation);
 }
@@ -302,9 +307,9 @@ START_TEST(sobol_by_recurrence)
 {
     static const struct range ranges_of[] = {
         {0, 1024},
-        {((uint64_t)1 << 53) - 100, 200},
-        {((uint64_t)1 << 63) - 100, 200},
-        {UINT64_MAX - 199, 200},
+        {((uint64_t)1 << 53) - 1000, 2000},
+        {((uint64_t)1 << 63) - 1000, 2000},
+        {UINT64_MAX - 1999, 2000},
     };
 
     for (size_t at = 0; at < 4; at++) {

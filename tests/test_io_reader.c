@@ -253,6 +253,32 @@ START_TEST(about_is_bounded)
 }
 END_TEST
 
+/* One comment of each length around that bound: it is kept whole or not at all. */
+START_TEST(about_at_its_bound)
+{
+    char text[600], word[600];
+
+    for (size_t length = 480; length <= 540; length++) {
+        koksma_table t = {0};
+
+        strcpy(text, "# koksma: a=");
+        memset(text + 12, 'x', length);
+        strcpy(text + 12 + length, "\n# word x y\n0 1 2\n");
+
+        FILE *in = stream_of_text(text);
+
+        ck_assert_int_eq(koksma_table_read(&t, in, "x", "y", NULL), KOKSMA_OK);
+        ck_assert_ptr_nonnull(memchr(t.about, '\0', sizeof t.about));
+        if (koksma_about_word(t.about, "a", word, sizeof word))
+            ck_assert_uint_eq(strlen(word), length);
+        else
+            ck_assert_str_eq(t.about, "");
+        koksma_table_free(&t);
+        fclose(in);
+    }
+}
+END_TEST
+
 static const struct {
     const char *about, *key, *word; /* word is NULL where there is none */
     double number;                  /* -1 where it is none */
@@ -292,10 +318,12 @@ START_TEST(about_words_are_cut)
     char word[8];
 
     for (size_t size = 1; size <= sizeof word; size++) {
+        size_t length = size - 1 < 4 ? size - 1 : 4;
+
         memset(word, 'x', sizeof word);
-        ck_assert(koksma_about_word("a=1234567890 b=2", "a", word, size));
-        ck_assert_uint_eq(strlen(word), size - 1);
-        ck_assert_int_eq(strncmp(word, "1234567", size - 1), 0);
+        ck_assert(koksma_about_word("a=1234 b=2", "a", word, size));
+        ck_assert_uint_eq(strlen(word), length);
+        ck_assert_int_eq(strncmp(word, "1234", length), 0);
         for (size_t i = size; i < sizeof word; i++)
             ck_assert_int_eq(word[i], 'x');
     }
@@ -386,6 +414,7 @@ static Suite *io_suite(void)
     suite_add_tcase(suite, tc);
     tcase_add_test(tc, about_comments);
     tcase_add_test(tc, about_is_bounded);
+    tcase_add_test(tc, about_at_its_bound);
     tcase_add_loop_test(tc, about_texts, 0, sizeof said / sizeof *said);
     tcase_add_test(tc, about_words_are_cut);
 

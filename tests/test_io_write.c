@@ -102,6 +102,27 @@ START_TEST(full_disk)
 }
 END_TEST
 
+/* Also where a buffer of the library has
+ * been written just before the end. */
+START_TEST(full_disk_at_any_row)
+{
+    static double rows[4200];
+    static char buffer[16];
+
+    for (size_t i = 0; i < 4200; i++)
+        rows[i] = 1.0;
+    for (size_t n = 4000; n <= 4200; n++) {
+        FILE *out = fopen("/dev/full", "w");
+
+        if (out == NULL) return;
+        ck_assert_int_eq(setvbuf(out, buffer, _IOFBF, sizeof buffer), 0);
+        ck_assert_int_eq(koksma_write_rows(out, rows, n, 1, KOKSMA_DECIMAL, NULL),
+                         KOKSMA_EIO);
+        fclose(out);
+    }
+}
+END_TEST
+
 /* ---- The locale ---------------------------------------------------------- */
 
 static bool comma_locale(void)
@@ -125,10 +146,13 @@ START_TEST(any_locale)
     const char *hex = "0x1.999999999999ap-4\t0x1.56e1fc2f8f359p-997\n"
                       "0x1p-2\t-0x1.34ap+10\n";
     const char *line = "1e-1,0.25,1 0x1.8p-1 0.1250000000000000000000000\n";
+    char number[KOKSMA_NUMBER_SIZE];
     size_t size;
     double v;
 
     if (!comma_locale()) return;
+    koksma_format_number(number, 1.5e-300);
+    ck_assert_str_eq(number, "1.5e-300");
 
     char *text = written(rows, 2, 2, KOKSMA_DECIMAL, &size);
 
@@ -173,6 +197,7 @@ static Suite *io_suite(void)
     tcase_add_test(tc, rows_as_text);
     tcase_add_test(tc, rows_come_back);
     tcase_add_test(tc, full_disk);
+    tcase_add_test(tc, full_disk_at_any_row);
     tcase_add_test(tc, any_locale);
     return suite;
 }

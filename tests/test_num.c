@@ -268,11 +268,29 @@ static bool narrow(koksma_interval v, double err)
     return v.lower <= v.upper && v.upper - v.lower <= 8.0 * err + 4.0 * spacing;
 }
 
+/* |hi + lo - product| <= err */
+static void check_volume(const case_of *c, ki_twofold vol)
+{
+    static exact e;
+
+    for (int side = 0; side < 2; side++) {
+        exact_clear(&e, c->exp < LOWEST ? c->exp : LOWEST);
+        exact_add(&e, &c->vol, c->exp, side == 0);
+        exact_add_double(&e, side == 0 ? vol.hi : -vol.hi, 1, 0);
+        exact_add_double(&e, side == 0 ? vol.lo : -vol.lo, 1, 0);
+        exact_add_double(&e, vol.err, 1, 0);
+        ck_assert_msg(exact_sign(&e) >= 0,
+                      "product of %zu, %a ...: %a + %a, off by %a", c->dim,
+                      c->corner[0], vol.hi, vol.lo, vol.err);
+    }
+}
+
 static void check_case(case_of *c, const char *what)
 {
     ki_twofold vol = ki_volume(c->corner, c->dim);
 
     multiply(c);
+    check_volume(c, vol);
     ck_assert(vol.err >= 0.0 && vol.err <= (double)c->dim * 0x1p-103);
     ck_assert(vol.hi + vol.lo == vol.hi);
     for (double sign = -1.0; sign <= 1.0; sign += 2.0) {
@@ -287,7 +305,8 @@ static void check_case(case_of *c, const char *what)
     }
 }
 
-/* Coordinates anywhere, next to 1, tiny, denormal; 0 and 1 among them. */
+/* Coordinates anywhere, next to 1, small, down to denormals, and such that two or
+ * three make a product whose errors are denormals; 0 and 1 among them. */
 static double coordinate(oracle_rng *rng, size_t kind)
 {
     size_t chance = oracle_below(rng, 40);
@@ -304,13 +323,18 @@ static double coordinate(oracle_rng *rng, size_t kind)
 static void random_case(case_of *c, uint64_t round, size_t most)
 {
     oracle_rng rng = oracle_rng_start(oracle_seed(), round);
+    size_t kind = round % 5;
     double vol = 1.0;
 
     c->dim = 1 + oracle_below(&rng, most);
-    if (round % 4 == 3 && c->dim > 60) c->dim = 60;
+    if (kind >= 3 && c->dim > 60) c->dim = 60;
     c->n = 1 + oracle_below(&rng, (size_t)1 << (1 + oracle_below(&rng, 52)));
+    if (kind == 0 && round % 2 == 0) {
+        c->dim = 2;
+        c->n = ((size_t)1 << 52) - oracle_below(&rng, (size_t)1 << 50);
+    }
     for (size_t k = 0; k < c->dim; k++)
-        vol *= c->corner[k] = coordinate(&rng, round % 4);
+        vol *= c->corner[k] = coordinate(&rng, kind);
     /* Next to n*vol, where nearly everything cancels, or anywhere. */
     c->inside = (size_t)(vol * (double)c->n);
     if (oracle_below(&rng, 2) == 0) c->inside = oracle_below(&rng, c->n);
