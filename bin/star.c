@@ -2,11 +2,14 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "cli.h"
 #include "star.h"
 
 static const cli_option options[] = {
+    {'m', "method", "METHOD", "auto, sweep or tree (default auto)"},
+    {'e', "tolerance", "E", "stop at upper <= (1+E) lower (default 0: exact)"},
     {'t', "time", "SECONDS", "stop then, with the interval so far"},
     {'w', "witness", NULL, "write the box that proves the lower bound"},
     {'p', "progress", NULL, "a live line on standard error"},
@@ -19,6 +22,7 @@ static const cli_tool tool = {"koksma-star", "[FILE]...",
                               options};
 
 typedef struct star_options {
+    koksma_star_opts opts;
     cli_watch watch;
     bool witness, verbose;
 } star_options;
@@ -50,42 +54,58 @@ static void print_row(const cli_input *input, const koksma_set *set,
     putchar('\n');
 }
 
+static koksma_star_method read_method(const char *text)
+{
+    if (strcmp(text, "auto") == 0) return KOKSMA_STAR_AUTO;
+    if (strcmp(text, "sweep") == 0) return KOKSMA_STAR_SWEEP;
+    if (strcmp(text, "tree") == 0) return KOKSMA_STAR_TREE;
+    cli_usage("-m takes auto, sweep or tree, not \"%s\"", text);
+}
+
 /* Returns whether the set was finished. */
 static bool measure(cli_input *input, const koksma_set *set, star_options *o)
 {
-    /* Who says how long does not mind how much. */
-    koksma_star_opts opts = {.work = o->watch.seconds > 0.0 ? HUGE_VAL : 0.0,
-                             .progress = cli_watch_progress,
-                             .state = &o->watch};
     koksma_star_result r = {.witness.corner = malloc(set->dim * sizeof(double))};
     koksma_error err;
     koksma_status status;
 
     if (r.witness.corner == NULL) cli_fail("not enough memory for a witness");
     cli_watch_start(&o->watch);
-    status = koksma_star(&r, koksma_set_view(set), &opts, &err);
+    o->opts.state = &o->watch;
+    status = koksma_star(&r, koksma_set_view(set), &o->opts, &err);
     cli_watch_stop(&o->watch);
     if (status != KOKSMA_OK && status != KOKSMA_STOPPED)
         cli_fail_input(input, &err);
     print_row(input, set, &r, o->witness);
     if (status == KOKSMA_STOPPED) cli_note("%s", err.text);
     if (o->verbose)
-        cli_note("%zu points, %zu coordinates: nested sweep, %.3g corners, %.2f s",
-                 set->n, set->dim, r.work, cli_seconds(&o->watch));
+        cli_note("%zu points, %zu coordinates: %s, %.3g %s, %.2f s", set->n,
+                 set->dim, r.method == KOKSMA_STAR_SWEEP ? "sweep" : "tree", r.work,
+                 r.method == KOKSMA_STAR_SWEEP ? "corners" : "list entries",
+                 cli_seconds(&o->watch));
     free(r.witness.corner);
     return status == KOKSMA_OK;
 }
 
 int main(int argc, char *argv[])
 {
-    star_options o = {0};
+    star_options o = {.opts = {.progress = cli_watch_progress}};
     koksma_set set = {0};
     bool header = false, finished = true;
     int c;
 
     while ((c = cli_next(&tool, argc, argv)) != -1)
         switch (c) {
-        case 't': o.watch.seconds = cli_real("-t", optarg, 1e-3, 1e9); break;
+        case 'm': o.opts.method = read_method(optarg); break;
+        case 'e':
+            o.opts.tolerance = cli_real("-e", optarg, 0.0, 1e9);
+            o.opts.anytime = true;
+            break;
+        case 't':
+            o.watch.seconds = cli_real("-t", optarg, 1e-3, 1e9);
+            o.opts.anytime = true;
+            o.opts.work = HUGE_VAL; /* who says how long does not mind how much */
+            break;
         case 'w': o.witness = true; break;
         case 'p': o.watch.show = true; break;
         case 'v': o.verbose = true; break;

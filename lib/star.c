@@ -1,6 +1,7 @@
 #include "star.h"
 
 #include <float.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -77,42 +78,63 @@ static ki_best best_begin(koksma_points p, double *corner)
         .p = p, .witness.corner = corner, .slack = slack, .bar = -slack};
 }
 
+/* The sweep is the plainer one, and the faster one for few corners: measured. */
+static koksma_star_method choose(const koksma_star_opts *opts, koksma_points p)
+{
+    double corners = pow((double)p.n, (double)p.dim);
+
+    if (opts->method != KOKSMA_STAR_AUTO) return opts->method;
+    return p.dim == 1 || corners <= 0x1p20 ? KOKSMA_STAR_SWEEP : KOKSMA_STAR_TREE;
+}
+
+static koksma_status check_opts(const koksma_star_opts *opts, koksma_points p,
+                                koksma_error *err)
+{
+    if (!(opts->work >= 0.0))
+        return ki_fail(err, KOKSMA_EINVAL, 0, "the work to stop after is %g steps",
+                       opts->work);
+    if (!(opts->tolerance >= 0.0))
+        return ki_fail(err, KOKSMA_EINVAL, 0, "the tolerance is %g",
+                       opts->tolerance);
+    if (p.n >= (size_t)1 << 31)
+        return ki_fail(err, KOKSMA_EINVAL, 0, "%zu points: 2^31 are too many", p.n);
+    return KOKSMA_OK;
+}
+
 koksma_status koksma_star(koksma_star_result *out, koksma_points p,
                           const koksma_star_opts *opts, koksma_error *err)
 {
     static const koksma_star_opts defaults = KOKSMA_STAR_DEFAULTS;
     koksma_status status = koksma_points_check(p, err);
-    double *corner, *wanted = out->witness.corner;
-    ki_sweep_scratch *room;
+    koksma_star_result r = {.witness = {.corner = out->witness.corner}};
+    double *corner;
     bool stopped = false;
 
-    if (status != KOKSMA_OK) return status;
     if (opts == NULL) opts = &defaults;
-    if (!(opts->work >= 0.0))
-        return ki_fail(err, KOKSMA_EINVAL, 0,
-                       "the work to stop after is %g corners", opts->work);
-    corner = ki_alloc(p.dim, sizeof *corner);
-    room = ki_sweep_room(p.n, p.dim);
-    if (corner == NULL || room == NULL) {
-        free(corner);
-        free(room);
-        return ki_fail_memory(err, "the sweep's lists");
-    }
+    if (status == KOKSMA_OK) status = check_opts(opts, p, err);
+    if (status != KOKSMA_OK) return status;
+    corner = calloc(p.dim, sizeof *corner);
+    if (corner == NULL) return ki_fail_memory(err, "a corner");
 
-    for (size_t k = 0; k < p.dim; k++)
-        corner[k] = 0.0;
     ki_best best = best_begin(p, corner);
-    double work = ki_star_sweep(&best, room, opts, &stopped);
 
-    if (wanted != NULL) memcpy(wanted, corner, p.dim * sizeof *corner);
-    out->value = best.value;
-    out->witness = best.witness;
-    out->witness.corner = wanted;
-    out->work = work;
+    r.method = choose(opts, p);
+    if (r.method == KOKSMA_STAR_SWEEP)
+        status = ki_star_sweep(&best, opts, &r.value.upper, &r.work, &stopped);
+    else
+        status = ki_star_tree(&best, opts, &r.value.upper, &r.work, &stopped);
+    if (status != KOKSMA_OK) {
+        free(corner);
+        return ki_fail_memory(err, "the search for boxes");
+    }
+    r.value.lower = best.value.lower;
+    r.witness.inside = best.witness.inside;
+    r.witness.closed = best.witness.closed;
+    if (r.witness.corner != NULL)
+        memcpy(r.witness.corner, corner, p.dim * sizeof *corner);
     free(corner);
-    free(room);
+    *out = r;
     if (!stopped) return KOKSMA_OK;
-    out->value.upper = 1.0;
     return ki_fail(err, KOKSMA_STOPPED, 0,
-                   "stopped after %.3g corners; the interval so far is true", work);
+                   "stopped after %.3g steps; the interval so far is true", r.work);
 }

@@ -26,44 +26,61 @@ typedef struct koksma_box {
     bool closed;    /* whether the box includes its upper faces */
 } koksma_box;
 
+typedef enum koksma_star_method {
+    KOKSMA_STAR_AUTO,  /* the sweep for dim 1 and up to 2^20 corners, else the tree
+                        */
+    KOKSMA_STAR_SWEEP, /* visit every corner that a point can hold up */
+    KOKSMA_STAR_TREE   /* branch and bound */
+} koksma_star_method;
+
 typedef struct koksma_star_result {
-    koksma_interval value; /* D* lies in [value.lower, value.upper] */
-    koksma_box witness;    /* its local discrepancy is at least value.lower */
-    double work;           /* corners visited */
+    koksma_interval value;     /* D* lies in [value.lower, value.upper] */
+    koksma_box witness;        /* its local discrepancy is at least value.lower */
+    koksma_star_method method; /* which one ran */
+    double work; /* its steps: corners for the sweep, entries of lists of
+                  * points for the tree */
 } koksma_star_result;
 
 typedef struct koksma_star_opts {
-    double work; /* stop after about so many corners; 0: KOKSMA_STAR_WORK */
-    koksma_progress *progress; /* called every 2^20 corners or so; NULL: never */
+    koksma_star_method method;
+    double
+        tolerance; /* the tree stops at upper <= (1 + tolerance) lower; 0: exact */
+    bool anytime;  /* the tree works towards that in stages, which costs up to
+                    * twice the time, but has an upper bound when it is stopped */
+    double work;   /* stop after about so many steps; 0: after KOKSMA_STAR_WORK for
+                    * the sweep, never for the tree */
+    koksma_progress *progress; /* called a few times a second; NULL: never */
     void *state;               /* handed to progress */
 } koksma_star_opts;
 
-/* Corners visited before koksma_star gives up unless told otherwise, 2^36: a
- * minute or so. */
+/* Corners that the sweep visits unless told otherwise, 2^36: a minute or so. */
 #define KOKSMA_STAR_WORK 68719476736.0
 
 #define KOKSMA_STAR_DEFAULTS                                                       \
     {                                                                              \
-        0.0, NULL, NULL                                                            \
+        KOKSMA_STAR_AUTO, 0.0, false, 0.0, NULL, NULL                              \
     }
 
 /* Bound the star discrepancy of p.
  *
  * Out:     out    value: exact but for rounding, one or two units in the last
- *                 place wide; witness: of the boxes whose deviation, rounded to
- *                 such an interval, is the best the one with the lexicographically
- *                 least corner.  out->witness.corner
- *                 is an input too: NULL, or room for dim doubles
+ *                 place wide, unless a tolerance is given; witness: of the boxes
+ *                 whose deviation, rounded to such an interval, is the best the one
+ *                 with the lexicographically least corner (with a tolerance: some
+ *                 box).  out->witness.corner is an input too: NULL, or room for dim
+ *                 doubles
  *          err    filled on failure; may be NULL
- * In:      p      n points in [0,1]^dim, ties allowed
+ * In:      p      n < 2^31 points in [0,1]^dim, ties allowed
  *          opts   NULL means KOKSMA_STAR_DEFAULTS
  * Returns: KOKSMA_OK; KOKSMA_STOPPED when progress said so or the work ran out:
- *          value is then [found, 1]; KOKSMA_EINVAL or KOKSMA_EDOMAIN as
- *          koksma_points_check, and when opts->work is not >= 0; KOKSMA_ENOMEM
- * Cost:    n log n for dim 1, n^2 for dim 2, below n^dim above (every corner that
- *          a point can hold up is visited); memory n*dim
- * Source:  the critical corners: [Niederreiter 1992, thm 2.6] for dim 1,
- *          [Bundschuh, Zhu 1993] for dim 2 and 3 */
+ *          value is then true, but wider; KOKSMA_EINVAL or KOKSMA_EDOMAIN as
+ *          koksma_points_check, and for options out of range; KOKSMA_ENOMEM
+ * Cost:    sweep: n log n for dim 1, n^2 for dim 2, below n^dim above; memory
+ * n*dim. tree: no useful bound; measured on Halton points about n^1.5 for dim 3,
+ *          n^2 for dim 4 and n^2.7 for dim 8; memory n*dim times the depth of the
+ *          search at worst
+ * Source:  critical corners: [Niederreiter 1992, thm 2.6] for dim 1, [Bundschuh,
+ *          Zhu 1993] above; the tree is Koksma's own: lib/star_bound.c proves it */
 koksma_status koksma_star(koksma_star_result *out, koksma_points p,
                           const koksma_star_opts *opts, koksma_error *err);
 

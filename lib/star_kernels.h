@@ -24,11 +24,14 @@ typedef struct ki_best {
  * true one then wins, by 1/n at least. */
 void ki_best_offer(ki_best *b, const double *corner, size_t inside, bool closed);
 
-/* Visit every critical corner of b->p, with scratch from ki_sweep_room.  Returns
- * the corners visited; *stopped says whether the visit was cut short. */
-typedef struct ki_sweep_scratch ki_sweep_scratch;
-ki_sweep_scratch *ki_sweep_room(size_t n, size_t dim);
-double ki_star_sweep(ki_best *b, ki_sweep_scratch *room,
-                     const koksma_star_opts *opts, bool *stopped);
+/* Visit every critical corner of b->p, for any dim.  *work: the corners visited;
+ * *stopped: whether that was cut short; *upper and what it returns as below. */
+koksma_status ki_star_sweep(ki_best *b, const koksma_star_opts *opts, double *upper,
+                            double *work, bool *stopped);
+
+/* Branch and bound, for any dim; n < 2^31.  *upper: no box deviates by more.
+ * Returns KOKSMA_OK, also when stopped, or KOKSMA_ENOMEM. */
+koksma_status ki_star_tree(ki_best *b, const koksma_star_opts *opts, double *upper,
+                           double *work, bool *stopped);
 
 #endif

@@ -35,26 +35,27 @@ typedef struct level {
     double volume; /* the product of the sides before k */
 } level;
 
-struct ki_sweep_scratch {
+typedef struct scratch {
     level *levels;  /* dim of them; the last has no list but `last` */
     double *last;   /* m coordinates, and a 1 while it is swept */
     double *rank;   /* rank[j] = j/n */
     double *corner; /* the corner being visited */
     keyed *sorted;  /* all points by coordinate 0 */
-};
+} scratch;
 
 /* One walk over all corners of one kind. */
 typedef struct sweep {
     ki_best *best;
-    ki_sweep_scratch *room;
+    scratch *room;
     const koksma_star_opts *opts;
     bool closed;
     double work, next_report;
 } sweep;
 
-ki_sweep_scratch *ki_sweep_room(size_t n, size_t dim)
+/* One piece of memory for all of it, or NULL. */
+static scratch *make_room(size_t n, size_t dim)
 {
-    ki_sweep_scratch *room;
+    scratch *room;
     size_t per_point, bytes;
 
     /* This product is more than the sum below it: if one fits, both do. */
@@ -85,7 +86,7 @@ static int by_x(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static void fill_first_level(ki_sweep_scratch *room, koksma_points p)
+static void fill_first_level(scratch *room, koksma_points p)
 {
     for (size_t i = 0; i < p.n; i++)
         room->sorted[i] = (keyed){p.x[i * p.dim], i};
@@ -195,15 +196,20 @@ static bool walk(sweep *s, double limit)
     }
 }
 
-double ki_star_sweep(ki_best *b, ki_sweep_scratch *room,
-                     const koksma_star_opts *opts, bool *stopped)
+koksma_status ki_star_sweep(ki_best *b, const koksma_star_opts *opts, double *upper,
+                            double *work, bool *stopped)
 {
+    scratch *room = make_room(b->p.n, b->p.dim);
     sweep s = {.best = b, .room = room, .opts = opts, .next_report = 0x1p20};
     double limit = opts->work > 0.0 ? opts->work : KOKSMA_STAR_WORK;
 
+    if (room == NULL) return KOKSMA_ENOMEM;
     fill_first_level(room, b->p);
     *stopped = !walk(&s, limit);
     s.closed = true;
     if (!*stopped) *stopped = !walk(&s, limit);
-    return s.work;
+    *upper = *stopped ? 1.0 : b->value.upper;
+    *work = s.work;
+    free(room);
+    return KOKSMA_OK;
 }

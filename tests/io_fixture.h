@@ -110,8 +110,11 @@ static inline koksma_status render_by_rows(rendering *to, FILE *in,
             render_rows(to, rows, got, columns, first);
         }
         free(rows);
-        /* A failure leaves its output as it was. */
-        if (status != KOKSMA_OK && got != SIZE_MAX) abort();
+        if (status != KOKSMA_OK && got != SIZE_MAX) {
+            fputs("koksma_reader_rows failed, and changed its output got\n",
+                  stderr);
+            abort();
+        }
         if (status != KOKSMA_OK) break;
         columns = SIZE_MAX;
     }

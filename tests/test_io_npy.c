@@ -258,6 +258,7 @@ static Suite *io_suite(void)
     TCase *tc = tcase_create("arrays");
 
     suite_add_tcase(suite, tc);
+    tcase_set_timeout(tc, 20.0);
     tcase_add_test(tc, every_kind_of_array);
     tcase_add_test(tc, arrays_of_values);
     tcase_add_test(tc, every_kind_of_header);

@@ -296,6 +296,7 @@ static Suite *io_suite(void)
     TCase *tc = tcase_create("arrays");
 
     suite_add_tcase(suite, tc);
+    tcase_set_timeout(tc, 20.0);
     tcase_add_test(tc, cut_anywhere);
     tcase_add_test(tc, stray_bytes);
     tcase_add_test(tc, wrong_magic);

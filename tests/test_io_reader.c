@@ -404,6 +404,7 @@ static Suite *io_suite(void)
     TCase *tc = tcase_create("rows");
 
     suite_add_tcase(suite, tc);
+    tcase_set_timeout(tc, 20.0);
     tcase_add_test(tc, next_waits_for_rows);
     tcase_add_test(tc, faults_are_not_skipped);
     tcase_add_test(tc, sets_of_any_size);
@@ -412,6 +413,7 @@ static Suite *io_suite(void)
 
     tc = tcase_create("about");
     suite_add_tcase(suite, tc);
+    tcase_set_timeout(tc, 20.0);
     tcase_add_test(tc, about_comments);
     tcase_add_test(tc, about_is_bounded);
     tcase_add_test(tc, about_at_its_bound);
@@ -420,6 +422,7 @@ static Suite *io_suite(void)
 
     tc = tcase_create("system");
     suite_add_tcase(suite, tc);
+    tcase_set_timeout(tc, 20.0);
     tcase_add_test(tc, a_directory_is_no_file);
     tcase_add_loop_test(tc, a_read_fails_later, 0, 6);
     return suite;

@@ -194,6 +194,7 @@ static Suite *io_suite(void)
     TCase *tc = tcase_create("rows");
 
     suite_add_tcase(suite, tc);
+    tcase_set_timeout(tc, 20.0);
     tcase_add_test(tc, rows_as_text);
     tcase_add_test(tc, rows_come_back);
     tcase_add_test(tc, full_disk);

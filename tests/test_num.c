@@ -305,8 +305,8 @@ static void check_case(case_of *c, const char *what)
     }
 }
 
-/* Coordinates anywhere, next to 1, small, down to denormals, and such that two or
- * three make a product whose errors are denormals; 0 and 1 among them. */
+/* Coordinates anywhere, next to 1, small, down to denormals, and such that two make
+ * a product whose error is nearly denormal; 0 and 1 among them. */
 static double coordinate(oracle_rng *rng, size_t kind)
 {
     size_t chance = oracle_below(rng, 40);

@@ -43,17 +43,39 @@ static void complain(const char *what, koksma_points p, uint64_t round,
                  (unsigned long long)round, p.n, p.dim, text);
 }
 
-static void solve(answer *a, koksma_points p)
+static void solve_by(answer *a, koksma_points p, koksma_star_method method)
 {
+    koksma_star_opts opts = {.method = method};
     koksma_error err = {0};
 
     memset(a, 0, sizeof *a);
     a->r.witness.corner = a->corner;
 
-    koksma_status status = koksma_star(&a->r, p, NULL, &err);
+    koksma_status status = koksma_star(&a->r, p, &opts, &err);
 
     ck_assert_msg(status == KOKSMA_OK, "status %d: %s", (int)status, err.text);
     ck_assert_msg(a->r.witness.corner == a->corner, "the corner's room has moved");
+    ck_assert_msg(a->r.method == method, "another method ran");
+}
+
+/* The one method is held against the definition; the other must say the same, to
+ * the last bit.  (Where an open and a closed box tie at one corner, they may
+ * differ in the kind.) */
+static void solve(answer *a, koksma_points p)
+{
+    static answer b;
+
+    solve_by(a, p, KOKSMA_STAR_SWEEP);
+    solve_by(&b, p, KOKSMA_STAR_TREE);
+    ck_assert_msg(
+        a->r.value.lower == b.r.value.lower && a->r.value.upper == b.r.value.upper,
+        "n %zu dim %zu: sweep [%.17g, %.17g], tree [%.17g, %.17g]", p.n, p.dim,
+        a->r.value.lower, a->r.value.upper, b.r.value.lower, b.r.value.upper);
+    for (size_t k = 0; k < p.dim; k++)
+        ck_assert_msg(a->corner[k] == b.corner[k],
+                      "n %zu dim %zu: the witnesses part along axis %zu: %a, %a",
+                      p.n, p.dim, k, a->corner[k], b.corner[k]);
+    ck_assert(koksma_box_local(&b.r.witness, p).lower >= b.r.value.lower);
 }
 
 /* What a recount of any witness must show, finished or not.  It proves
@@ -580,12 +602,17 @@ static int look(void *state, double lower, double upper, double work)
 }
 
 static const struct stop {
+    koksma_star_method method;
     size_t n, dim;
     double work;
     size_t stop_at;
 } stops[] = {
-    {5000, 2, 0.0, 1}, {5000, 2, 0.0, 3}, {5000, 2, 2e6, 0}, {5000, 2, 1.0, 0},
-    {300, 4, 0.0, 1},  {300, 4, 0.0, 3},  {300, 4, 2e6, 0},  {300, 4, 1.0, 0},
+    {KOKSMA_STAR_SWEEP, 5000, 2, 0.0, 1}, {KOKSMA_STAR_SWEEP, 5000, 2, 0.0, 3},
+    {KOKSMA_STAR_SWEEP, 5000, 2, 2e6, 0}, {KOKSMA_STAR_SWEEP, 5000, 2, 1.0, 0},
+    {KOKSMA_STAR_SWEEP, 300, 4, 0.0, 1},  {KOKSMA_STAR_SWEEP, 300, 4, 0.0, 3},
+    {KOKSMA_STAR_SWEEP, 300, 4, 2e6, 0},  {KOKSMA_STAR_SWEEP, 300, 4, 1.0, 0},
+    {KOKSMA_STAR_TREE, 3000, 4, 0.0, 1},  {KOKSMA_STAR_TREE, 3000, 4, 0.0, 3},
+    {KOKSMA_STAR_TREE, 3000, 4, 5e5, 0},  {KOKSMA_STAR_TREE, 3000, 4, 1.0, 0},
 };
 
 /* Stopped by the callback or by the work allowed: the witness proves what was found
@@ -595,7 +622,10 @@ START_TEST(stopped_early)
     const struct stop *c = &stops[_i];
     static test_set s;
     watch seen = {0, c->stop_at, 0.0, 0.0, true};
-    koksma_star_opts opts = {c->work, c->stop_at > 0 ? look : NULL, &seen};
+    koksma_star_opts opts = {.method = c->method,
+                             .work = c->work,
+                             .progress = c->stop_at > 0 ? look : NULL,
+                             .state = &seen};
     koksma_error err = {0};
     answer a;
 
@@ -618,13 +648,129 @@ START_TEST(stopped_early)
 }
 END_TEST
 
+/* With a tolerance the interval holds D* and is as narrow as asked; in stages, what
+ * is reported on the way shrinks towards it. */
+typedef struct stages {
+    double lower, upper;
+    size_t calls;
+    bool shrinks;
+} stages;
+
+static int watch_stages(void *state, double lower, double upper, double work)
+{
+    stages *s = state;
+
+    (void)work;
+    if (!(lower >= s->lower && upper <= s->upper && lower <= upper))
+        s->shrinks = false;
+    s->lower = lower;
+    s->upper = upper;
+    s->calls++;
+    return 0;
+}
+
+START_TEST(tolerance_is_kept)
+{
+    static const double tolerances[] = {0.0, 0.02, 0.3, 2.0};
+    static test_set s;
+
+    for (uint64_t round = 0; round < 12 * oracle_scale(); round++) {
+        answer exact, a;
+
+        make_set(&s, 100, 2 + round % 3, 20, round);
+        solve_by(&exact, s.p, KOKSMA_STAR_TREE);
+        for (int i = 0; i < 8; i++) {
+            double tolerance = tolerances[i / 2];
+            stages seen = {0.0, 1.0, 0, true};
+            koksma_star_opts opts = {.method = KOKSMA_STAR_TREE,
+                                     .tolerance = tolerance,
+                                     .anytime = i % 2 == 1,
+                                     .progress = watch_stages,
+                                     .state = &seen};
+
+            a.r.witness.corner = a.corner;
+            ck_assert_int_eq(koksma_star(&a.r, s.p, &opts, NULL), KOKSMA_OK);
+            ck_assert(a.r.value.lower <= exact.r.value.lower);
+            ck_assert(a.r.value.upper >= exact.r.value.upper);
+            ck_assert(tolerance > 0.0 ? a.r.value.upper <= (1.0 + tolerance) *
+                                                               a.r.value.lower ||
+                                            a.r.value.upper <= exact.r.value.upper
+                                      : a.r.value.upper == exact.r.value.upper);
+            ck_assert(witness_fault(&a.r, s.p) == NULL);
+            ck_assert(seen.shrinks && a.r.value.upper <= seen.upper);
+        }
+    }
+}
+END_TEST
+
+/* Stopped in stages: the bound of the last stage stands. */
+START_TEST(stages_bound_early)
+{
+    static test_set s;
+    koksma_star_opts opts = {
+        .method = KOKSMA_STAR_TREE, .anytime = true, .work = 6e6};
+    answer a;
+
+    make_set(&s, 3000, 4, 20, 5);
+    memset(&a, 0, sizeof a);
+    a.r.witness.corner = a.corner;
+    ck_assert_int_eq(koksma_star(&a.r, s.p, &opts, NULL), KOKSMA_STOPPED);
+    ck_assert(a.r.value.upper < 1.0);
+    ck_assert(a.r.value.upper <= 2.0 * a.r.value.lower);
+    ck_assert(witness_fault(&a.r, s.p) == NULL);
+}
+END_TEST
+
+/* What the proof in lib/star_bound.c takes from the mathematics library: log is
+ * within 2^-51 of itself.  (Where long double is no longer, this says less.) */
+START_TEST(logarithm_is_good_enough)
+{
+    oracle_rng rng = oracle_rng_start(oracle_seed(), 77);
+
+    for (uint64_t i = 0; i < 100000 * oracle_scale(); i++) {
+        double u = oracle_dyadic(&rng, 53), x = u;
+
+        if (i % 4 == 1) x = 1.0 - u * 0x1p-30;
+        if (i % 4 == 2) x = ldexp(u, -(int)(i % 1070));
+        if (i % 4 == 3) x = u * u * u;
+        if (x == 0.0) continue;
+
+        long double exact = logl((long double)x);
+
+        ck_assert_msg(fabsl((long double)log(x) - exact) <= 0x1p-51L * -exact,
+                      "log(%a)", x);
+    }
+}
+END_TEST
+
+START_TEST(refused_options)
+{
+    static const double x[] = {0.5};
+    koksma_star_opts bad[] = {{.work = -1.0},
+                              {.work = (double)NAN},
+                              {.tolerance = -1e-3},
+                              {.tolerance = (double)NAN}};
+
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        koksma_star_result r = {.witness.corner = NULL};
+        koksma_error err = {0};
+
+        ck_assert_int_eq(koksma_star(&r, (koksma_points){x, 1, 1}, &bad[i], &err),
+                         KOKSMA_EINVAL);
+        ck_assert_uint_gt(strlen(err.text), 0);
+    }
+}
+END_TEST
+
 /* Being watched changes nothing; nor do options that ask for what is the default,
  * nor not wanting the corner or the error. */
 START_TEST(options_and_nulls)
 {
     static test_set s;
     watch seen = {0, 0, 0.0, 0.0, true};
-    koksma_star_opts watched = {0.0, look, &seen}, defaults = KOKSMA_STAR_DEFAULTS;
+    koksma_star_opts watched = {
+        .method = KOKSMA_STAR_SWEEP, .progress = look, .state = &seen};
+    koksma_star_opts defaults = KOKSMA_STAR_DEFAULTS;
     koksma_star_result r = {.witness.corner = NULL};
     answer a;
 
@@ -748,6 +894,10 @@ static Suite *star_suite(void)
     tc = tests_named(suite, "calls");
     tcase_add_loop_test(tc, stopped_early, 0, sizeof stops / sizeof *stops);
     tcase_add_test(tc, options_and_nulls);
+    tcase_add_test(tc, tolerance_is_kept);
+    tcase_add_test(tc, stages_bound_early);
+    tcase_add_test(tc, refused_options);
+    tcase_add_test(tc, logarithm_is_good_enough);
     tcase_add_loop_test(tc, refused_coordinates, 0, 6);
     tcase_add_test(tc, refused_sizes);
     return suite;

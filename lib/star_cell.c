@@ -1,0 +1,328 @@
+#include <stdlib.h>
+#include <string.h>
+
+#include "error.h"
+#include "star_tree_kernels.h"
+
+/* A cell narrows along one axis or more; points change their standing, and every
+ * change is logged, so that leaving the cell takes it back.  Lists are sorted by
+ * rank: what becomes in is a prefix of its axis' list, what becomes out a
+ * suffix.  Only when points went out do the lists of the other axes change, and
+ * are then copied behind those of the parent; else parent and part share them.
+ *
+ * Which corners matter: in an optimal one, the side along axis k ends at a point
+ * that the other sides leave inside (open boxes: or at 1), since else it could
+ * move on to the next such point for the better.  So the ranks in the list of
+ * axis k are all that a corner needs, and the list keeps, besides the points
+ * that are open along k, those at its end that is still a possible rank: of rank
+ * high for open boxes, which are out, and of rank low for closed ones, which are
+ * in. */
+
+static const uint32_t OUT = (uint32_t)1 << 31; /* in the log: went out, not in */
+
+static bool went(ki_worker *w, uint32_t change)
+{
+    if (ki_grow((void **)&w->log, &w->room_log, w->logged + 1, sizeof *w->log) != 0)
+        return false;
+    w->log[w->logged++] = change;
+    return true;
+}
+
+static bool go_out(ki_worker *w, uint32_t point)
+{
+    w->outs[point]++;
+    return went(w, point | OUT);
+}
+
+static bool go_in(ki_worker *w, ki_cell *c, uint32_t point)
+{
+    if (--w->opens[point] == 0 && w->outs[point] == 0) c->inside++;
+    return went(w, point);
+}
+
+/* Lower the upper end of axis k's range. */
+static bool lower_high(ki_worker *w, ki_cell *c, size_t k, uint32_t high)
+{
+    const ki_entry *e = w->entry;
+    uint32_t shift = w->ranks->shift, before = c->high[k];
+    size_t end = c->end[k], begin = c->begin[k];
+
+    for (; end > begin && e[end - 1].rank > high; end--)
+        if (e[end - 1].rank + shift <= before && !go_out(w, e[end - 1].point))
+            return false;
+    if (shift > 0)
+        for (size_t i = end; i > begin && e[i - 1].rank == high; i--)
+            if (!go_out(w, e[i - 1].point)) return false;
+    c->end[k] = end;
+    c->high[k] = high;
+    return true;
+}
+
+/* Raise the lower end of axis k's range. */
+static bool raise_low(ki_worker *w, ki_cell *c, size_t k, uint32_t low)
+{
+    const ki_entry *e = w->entry;
+    uint32_t shift = w->ranks->shift, before = c->low[k];
+    size_t end = c->end[k], begin = c->begin[k];
+
+    for (; begin < end && e[begin].rank < low; begin++)
+        if (e[begin].rank + shift > before && !go_in(w, c, e[begin].point))
+            return false;
+    if (shift == 0)
+        for (size_t i = begin; i < end && e[i].rank == low; i++)
+            if (!go_in(w, c, e[i].point)) return false;
+    c->begin[k] = begin;
+    c->low[k] = low;
+    return true;
+}
+
+/* Copy the lists without the points that are out along another axis. */
+static bool copy_lists(ki_worker *w, ki_cell *c)
+{
+    size_t dim = w->ranks->dim, all = c->free_entry;
+    ki_entry *to;
+
+    for (size_t k = 0; k < dim; k++)
+        all += c->end[k] - c->begin[k];
+    /* One more: the copy below writes before it knows whether to keep. */
+    if (ki_grow((void **)&w->entry, &w->room_entries, all + 1, sizeof *w->entry) !=
+        0)
+        return false;
+    to = w->entry + c->free_entry;
+    for (size_t k = 0; k < dim; k++) {
+        const ki_entry *e = w->entry + c->begin[k], *end = w->entry + c->end[k];
+        const ki_entry *own = end; /* from here on out along k itself */
+
+        if (w->ranks->shift > 0)
+            while (own > e && own[-1].rank == c->high[k])
+                own--;
+        c->begin[k] = (size_t)(to - w->entry);
+        for (; e < own; e++) {
+            *to = *e;
+            to += w->outs[e->point] == 0;
+        }
+        for (; e < end; e++) {
+            *to = *e;
+            to += w->outs[e->point] == 1;
+        }
+        c->end[k] = (size_t)(to - w->entry);
+    }
+    return true;
+}
+
+/* Drop from the live points those that went out, or in along every axis. */
+static bool copy_live(ki_worker *w, ki_cell *c, size_t at)
+{
+    uint32_t *to;
+
+    if (ki_grow((void **)&w->live, &w->room_live, at + c->lives + 1,
+                sizeof *w->live) != 0)
+        return false;
+    to = w->live + at;
+    for (const uint32_t *p = w->live + c->live, *end = p + c->lives; p < end; p++) {
+        *to = *p;
+        to += w->outs[*p] == 0 && w->opens[*p] > 0;
+    }
+    c->live = at;
+    c->lives = (size_t)(to - (w->live + at));
+    return true;
+}
+
+/* Where the copies of c go: behind what its parent needs.  In c->live the copy
+ * may overlap the original, which it only shortens. */
+static size_t live_place(const ki_worker *w, const ki_cell *c)
+{
+    const ki_cell *parent = c > w->cell ? c - 1 : NULL;
+
+    return parent != NULL ? parent->live + parent->lives : 0;
+}
+
+bool ki_cell_narrow(ki_worker *w, ki_cell *c)
+{
+    size_t before = w->logged;
+    bool went_out = false;
+
+    for (size_t k = 0; k < w->ranks->dim; k++) {
+        if (w->new_high[k] < c->high[k] && !lower_high(w, c, k, w->new_high[k]))
+            return false;
+        if (w->new_low[k] > c->low[k] && !raise_low(w, c, k, w->new_low[k]))
+            return false;
+    }
+    for (size_t i = before; i < w->logged && !went_out; i++)
+        went_out = (w->log[i] & OUT) != 0;
+    if (went_out && !copy_lists(w, c)) return false;
+    return w->logged == before || copy_live(w, c, live_place(w, c));
+}
+
+bool ki_cell_settle(ki_worker *w, ki_cell *c, bool *empty)
+{
+    bool changed = true;
+
+    *empty = false;
+    while (changed) {
+        changed = false;
+        for (size_t k = 0; k < w->ranks->dim; k++) {
+            const ki_entry *first = w->entry + c->begin[k],
+                           *end = w->entry + c->end[k];
+            /* An open box may reach to 1 without a point there. */
+            bool to_one =
+                w->ranks->shift > 0 && c->high[k] == w->ranks->axis[k].top;
+
+            *empty = first == end && !to_one;
+            if (*empty) return true;
+            w->new_low[k] = first < end ? first->rank : c->high[k];
+            w->new_high[k] = to_one ? c->high[k] : end[-1].rank;
+            changed |= w->new_low[k] != c->low[k] || w->new_high[k] != c->high[k];
+        }
+        if (changed && !ki_cell_narrow(w, c)) return false;
+    }
+    return true;
+}
+
+void ki_cell_leave(ki_worker *w, const ki_cell *c)
+{
+    while (w->logged > c->undo) {
+        uint32_t change = w->log[--w->logged];
+
+        if (change & OUT)
+            w->outs[change & ~OUT]--;
+        else
+            w->opens[change]++;
+    }
+}
+
+/* Room for one more cell on the path; its arrays stay with it. */
+static ki_cell *cell_at(ki_worker *w, size_t depth)
+{
+    size_t dim = w->ranks->dim;
+
+    if (ki_grow((void **)&w->cell, &w->room_cells, depth + 1, sizeof *w->cell) != 0)
+        return NULL;
+    if (depth == w->cells) {
+        ki_cell *c = &w->cell[depth];
+        char *memory = ki_alloc(2 * dim, sizeof *c->begin + sizeof *c->low);
+
+        if (memory == NULL) return NULL;
+        c->begin = (size_t *)memory;
+        c->end = c->begin + dim;
+        c->low = (uint32_t *)(c->end + dim);
+        c->high = c->low + dim;
+        w->cells++;
+    }
+    return &w->cell[depth];
+}
+
+ki_cell *ki_cell_enter(ki_worker *w, size_t depth)
+{
+    size_t dim = w->ranks->dim;
+    ki_cell *c = cell_at(w, depth);
+    const ki_cell *from = c - 1;
+
+    if (c == NULL) return NULL;
+    memcpy(c->low, from->low, dim * sizeof *c->low);
+    memcpy(c->high, from->high, dim * sizeof *c->high);
+    memcpy(c->begin, from->begin, dim * sizeof *c->begin);
+    memcpy(c->end, from->end, dim * sizeof *c->end);
+    c->live = from->live;
+    c->lives = from->lives;
+    c->inside = from->inside;
+    c->free_entry = from->begin[0];
+    for (size_t k = 0; k < dim; k++)
+        if (from->end[k] > c->free_entry) c->free_entry = from->end[k];
+    if (from->free_entry > c->free_entry) c->free_entry = from->free_entry;
+    c->undo = w->logged;
+    c->parts = 0;
+    return c;
+}
+
+/* The whole of the corners: cell 0 of the path. */
+static bool enter_root(ki_worker *w)
+{
+    const ki_ranks *r = w->ranks;
+    ki_cell *c = cell_at(w, 0);
+    size_t at = 0, all;
+
+    if (c == NULL || __builtin_mul_overflow(r->n, r->dim, &all) ||
+        ki_grow((void **)&w->entry, &w->room_entries, all + 1, sizeof *w->entry) !=
+            0 ||
+        ki_grow((void **)&w->live, &w->room_live, r->n + 1, sizeof *w->live) != 0)
+        return false;
+    for (size_t k = 0; k < r->dim; k++) {
+        const uint32_t *rank = r->rank + k * r->n;
+
+        c->low[k] = 1;
+        c->high[k] = r->axis[k].top;
+        for (size_t i = 0; i < r->n; i++) {
+            w->outs[i] += rank[i] + r->shift > c->high[k];
+            w->opens[i] +=
+                rank[i] + r->shift > 1 && rank[i] + r->shift <= c->high[k];
+        }
+    }
+    for (size_t k = 0; k < r->dim; k++) {
+        c->begin[k] = at;
+        for (size_t j = 0; j < r->n; j++) {
+            uint32_t i = r->order[k * r->n + j], rank = r->rank[k * r->n + i];
+
+            w->entry[at] = (ki_entry){i, rank};
+            at += rank > 0 && w->outs[i] == (rank + r->shift > c->high[k]);
+        }
+        c->end[k] = at;
+    }
+    c->live = c->lives = c->inside = c->undo = 0;
+    c->free_entry = at;
+    c->parts = 0;
+    for (size_t i = 0; i < r->n; i++) {
+        if (w->outs[i] > 0) continue;
+        if (w->opens[i] > 0)
+            w->live[c->lives++] = (uint32_t)i;
+        else
+            c->inside++;
+    }
+    return true;
+}
+
+koksma_status ki_worker_begin(ki_worker *w, const ki_ranks *ranks, ki_best *best)
+{
+    size_t n = ranks->n, dim = ranks->dim;
+
+    *w = (ki_worker){.ranks = ranks, .best = best, .factor = 1.0};
+    w->outs = calloc(n, sizeof *w->outs);
+    w->opens = calloc(n, sizeof *w->opens);
+    w->axis_of = ki_alloc(n, sizeof *w->axis_of);
+    w->weight = ki_alloc(n, sizeof *w->weight);
+    w->reach = ki_alloc(n, sizeof *w->reach);
+    w->new_low = ki_alloc(dim, sizeof *w->new_low);
+    w->new_high = ki_alloc(dim, sizeof *w->new_high);
+    w->best_term = ki_alloc(dim, sizeof *w->best_term);
+    w->pillars = ki_alloc(dim, sizeof *w->pillars);
+    w->corner = ki_alloc(dim, sizeof *w->corner);
+    if (w->outs != NULL && w->opens != NULL && w->axis_of != NULL &&
+        w->weight != NULL && w->reach != NULL && w->new_low != NULL &&
+        w->new_high != NULL && w->best_term != NULL && w->pillars != NULL &&
+        w->corner != NULL && enter_root(w))
+        return KOKSMA_OK;
+    ki_worker_end(w);
+    return KOKSMA_ENOMEM;
+}
+
+void ki_worker_end(ki_worker *w)
+{
+    for (size_t i = 0; i < w->cells; i++)
+        free(w->cell[i].begin);
+    free(w->cell);
+    free(w->entry);
+    free(w->live);
+    free(w->log);
+    free(w->outs);
+    free(w->opens);
+    free(w->axis_of);
+    free(w->weight);
+    free(w->reach);
+    free(w->new_low);
+    free(w->new_high);
+    free(w->best_term);
+    free(w->pillars);
+    free(w->term);
+    free(w->corner);
+    *w = (ki_worker){0};
+}

@@ -1,0 +1,117 @@
+#ifndef KI_STAR_TREE_KERNELS_H
+#define KI_STAR_TREE_KERNELS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "star_kernels.h"
+
+/* Private: the branch and bound for the star discrepancy, in four files:
+ *
+ *   star_ranks.c   coordinates as ranks
+ *   star_cell.c    cells of corners, and the points that matter in each
+ *   star_bound.c   what a cell can hold at most, for open and for closed boxes
+ *   star_tree.c    the search
+ *
+ * Open and closed boxes are two problems with one incumbent.  In either a corner
+ * z is a rank an axis, and a point of rank r is inside along that axis when
+ * r + shift <= z, where shift is 1 for open boxes and 0 for closed ones. */
+
+/* Along axis k the distinct coordinates but 0 have the ranks 1, ..., top, in
+ * increasing order, and 0 has rank 0.  Open boxes may always reach to 1. */
+typedef struct ki_axis {
+    uint32_t top;
+    double *value; /* value[r], 0 <= r <= top */
+    double *log;   /* of the values from rank 1 on */
+} ki_axis;
+
+typedef struct ki_ranks {
+    size_t n, dim;
+    bool closed;
+    uint32_t shift;
+    ki_axis *axis;   /* dim */
+    uint32_t *rank;  /* rank[k*n + i]: of point i along axis k */
+    uint32_t *order; /* order[k*n ...]: the points by rank along axis k */
+    void *memory;    /* all of the above */
+} ki_ranks;
+
+koksma_status ki_ranks_make(ki_ranks *out, koksma_points p, bool closed);
+void ki_ranks_free(ki_ranks *r);
+
+/* A point in the list of an axis. */
+typedef struct ki_entry {
+    uint32_t point, rank;
+} ki_entry;
+
+/* A cell: all corners between two.  Relative to it a point is, along each axis,
+ * in (inside whatever the corner), out, or open. */
+typedef struct ki_cell {
+    uint32_t *low, *high; /* dim ranks each, both included */
+    size_t *begin, *end;  /* dim: the list of each axis, in the worker's entries:
+                           * points not out along any other axis whose rank lies
+                           * in [low, high], by rank */
+    size_t live, lives;   /* in the worker's live: points nowhere out and open
+                           * along an axis at least */
+    size_t inside;        /* points in along every axis */
+    size_t free_entry;    /* where in the entries the lists of its parts may go */
+    size_t undo;          /* length of the worker's log before this cell */
+    double bound;
+    size_t split; /* the axis to split, at `middle` */
+    uint32_t middle;
+    int parts; /* parts visited */
+} ki_cell;
+
+/* What one thread works with: the path of cells that it is in, and where each
+ * point stands with respect to the last of them. */
+typedef struct ki_worker {
+    const ki_ranks *ranks;
+    ki_best *best;
+
+    ki_cell *cell; /* the path */
+    size_t cells, room_cells;
+    ki_entry *entry;
+    size_t room_entries;
+    uint32_t *live;
+    size_t room_live;
+    uint32_t *log; /* points whose standing changed, to take it back */
+    size_t logged, room_log;
+
+    uint32_t *outs, *opens; /* n: axes along which a point is out; open */
+    double *weight;         /* n: of a point in the relaxation of open boxes */
+    double *reach;          /* n: how far up the open ranges a point stands */
+    uint32_t *axis_of;      /* n: the axis that a point is charged to (closed) */
+
+    uint32_t *new_low, *new_high; /* dim: the ranges wanted next */
+    double *best_term;            /* dim */
+    size_t *pillars; /* dim: entries of points open along other axes too */
+    double *term;    /* of each entry, and one more a list */
+    size_t room_terms;
+    double *corner; /* dim */
+
+    double work;   /* list entries looked at */
+    double factor; /* cells below factor * lower are of no interest; 1: exact */
+} ki_worker;
+
+koksma_status ki_worker_begin(ki_worker *w, const ki_ranks *ranks, ki_best *best);
+void ki_worker_end(ki_worker *w);
+
+/* Make cell `depth` of the path a copy of the one before, and return it. */
+ki_cell *ki_cell_enter(ki_worker *w, size_t depth);
+
+/* Narrow the cell to [new_low, new_high].  Returns false without memory. */
+bool ki_cell_narrow(ki_worker *w, ki_cell *c);
+
+/* Narrow the cell until the ends of every range are ranks that a corner which
+ * matters can have.  *empty: there is none.  Returns false without memory. */
+bool ki_cell_settle(ki_worker *w, ki_cell *c, bool *empty);
+
+/* Forget the cell: the points stand as they did before it. */
+void ki_cell_leave(ki_worker *w, const ki_cell *c);
+
+/* An upper bound of the deviations of all corners in the cell that are not below
+ * the target; new_low and new_high get the ranges that such corners keep to.
+ * Below the target, the bound says that there is none. */
+double ki_cell_bound(ki_worker *w, ki_cell *c, double target);
+
+#endif
