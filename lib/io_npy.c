@@ -246,8 +246,10 @@ koksma_status ki_npy_rows(koksma_reader *r, double *rows, size_t room, size_t *g
     size_t items = now * r->columns, have = items;
     koksma_status status = KOKSMA_OK;
 
-    *got = 0;
-    if (now == 0) return KOKSMA_OK;
+    if (now == 0) {
+        *got = 0;
+        return KOKSMA_OK;
+    }
     if (r->transposed != NULL)
         memcpy(rows, r->transposed + r->row * r->columns, items * sizeof *rows);
     else
