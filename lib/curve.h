@@ -34,7 +34,8 @@ void koksma_curve_close(koksma_curve *c); /* c may be NULL */
 void koksma_curve_begin(koksma_curve *c, double exact);
 
 /* Go on with `count` values: f[0], f[stride], ...  Deviations are summed with
- * compensation: e(N) is good to an ulp or so of itself. */
+ * compensation: the sum is off by less than an ulp of itself and count 2^-105 of
+ * the sum of their absolute values. */
 void koksma_curve_add(koksma_curve *c, const double *f, size_t stride,
                       size_t count);
 

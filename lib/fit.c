@@ -1,5 +1,6 @@
 #include "fit.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -12,6 +13,7 @@ typedef struct grid {
     size_t rows, sets;
     double *n;      /* rows */
     double *square; /* rows*sets: e^2 over the largest e^2; NaN: none */
+    double largest; /* |e| */
 } grid;
 
 typedef struct entry {
@@ -48,12 +50,22 @@ static koksma_status check(koksma_fit_data d, const koksma_fit_opts *o,
     return KOKSMA_OK;
 }
 
-/* Sort what lies in the window into the grid. */
-static koksma_status fill_grid(grid *g, entry *e, size_t count, koksma_error *err)
+/* How many different N there are among sorted entries. */
+static size_t count_rows(const entry *e, size_t count)
+{
+    size_t rows = 0;
+
+    for (size_t i = 0; i < count; i++)
+        rows += i == 0 || e[i].n != e[i - 1].n;
+    return rows;
+}
+
+/* Put sorted entries into the grid. */
+static koksma_status fill_grid(grid *g, const entry *e, size_t count,
+                               koksma_error *err)
 {
     double largest = 0.0;
 
-    qsort(e, count, sizeof *e, by_n_then_set);
     for (size_t i = 0; i < count; i++)
         largest = fmax(largest, fabs(e[i].y));
     g->rows = 0;
@@ -74,6 +86,7 @@ static koksma_status fill_grid(grid *g, entry *e, size_t count, koksma_error *er
         row = g->square + (g->rows - 1) * g->sets;
         row[e[i].set] = largest > 0.0 ? pow(e[i].y / largest, 2.0) : 0.0;
     }
+    g->largest = largest;
     return KOKSMA_OK;
 }
 
@@ -118,7 +131,8 @@ typedef struct weights {
     double centre;
 } weights;
 
-static void fill_weights(weights *w, const grid *g)
+/* Returns false when the N's are so close that there is no slope. */
+static bool fill_weights(weights *w, const grid *g)
 {
     double m = (double)g->rows, u2 = 0.0, u3 = 0.0, p2 = 0.0;
 
@@ -140,6 +154,7 @@ static void fill_weights(weights *w, const grid *g)
     }
     for (size_t i = 0; i < g->rows; i++)
         w->bend[i] /= p2;
+    return u2 > 0.0 && p2 > 0.0;
 }
 
 /* One line through ln rms, without replicate `left_out` (sets: with all). */
@@ -199,7 +214,7 @@ static void jackknife(koksma_fit_result *out, const grid *g, const weights *w)
 }
 
 static koksma_status fit_grid(koksma_fit_result *out, grid *g, weights *w,
-                              double level, double largest, koksma_error *err)
+                              double level, koksma_error *err)
 {
     koksma_fit_result f = {.sets = g->sets, .dropped = drop_rows(g)};
     line l;
@@ -211,14 +226,32 @@ static koksma_status fit_grid(koksma_fit_result *out, grid *g, weights *w,
                        g->rows, f.dropped);
     f.from = g->n[0];
     f.to = g->n[g->rows - 1];
-    fill_weights(w, g);
+    if (!fill_weights(w, g))
+        return ki_fail(
+            err, KOKSMA_EINVAL, 0,
+            "the N from %g to %g are too close to each other for a slope", f.from,
+            f.to);
     l = fit_line(g, w, g->sets);
     jackknife(&f, g, w);
     f.exponent = around(l.slope, f.exponent_se, level, f.sets);
     f.curvature = around(l.bend, f.curvature_se, level, f.sets);
-    f.constant = largest * exp(l.level - l.slope * w->centre);
+    f.constant = g->largest * exp(l.level - l.slope * w->centre);
     *out = f;
     return KOKSMA_OK;
+}
+
+/* The entries whose N lies in the window, sorted; returns how many. */
+static size_t take_window(entry *e, koksma_fit_data d, const koksma_fit_opts *o)
+{
+    double from = o->from > 0.0 ? o->from : 8.0,
+           to = o->to > 0.0 ? o->to : HUGE_VAL;
+    size_t count = 0;
+
+    for (size_t i = 0; i < d.rows; i++)
+        if (d.x[i] >= from && d.x[i] <= to)
+            e[count++] = (entry){d.x[i], d.y[i], d.set[i]};
+    qsort(e, count, sizeof *e, by_n_then_set);
+    return count;
 }
 
 koksma_status koksma_fit(koksma_fit_result *out, koksma_fit_data data,
@@ -226,33 +259,27 @@ koksma_status koksma_fit(koksma_fit_result *out, koksma_fit_data data,
 {
     static const koksma_fit_opts defaults = KOKSMA_FIT_DEFAULTS;
     const koksma_fit_opts *o = opts != NULL ? opts : &defaults;
-    double from = o->from > 0.0 ? o->from : 8.0,
-           to = o->to > 0.0 ? o->to : HUGE_VAL;
     koksma_status status = check(data, o, err);
-    size_t count = 0, cells = 0;
-    double largest = 0.0;
+    entry *e;
 
     if (status != KOKSMA_OK) return status;
-    entry *e = ki_alloc(data.rows, sizeof *e);
-    bool fits = !__builtin_mul_overflow(data.rows, data.sets, &cells);
+    e = ki_alloc(data.rows, sizeof *e);
+    if (e == NULL) return ki_fail_memory(err, "the fit");
+
+    size_t count = take_window(e, data, o), rows = count_rows(e, count), cells;
+    bool fits = !__builtin_mul_overflow(rows, data.sets, &cells);
     grid g = {.sets = data.sets,
-              .n = ki_alloc(data.rows, 3 * sizeof *g.n),
+              .n = ki_alloc(rows, 3 * sizeof *g.n),
               .square = fits ? ki_alloc(cells, sizeof *g.square) : NULL};
 
-    if (e == NULL || g.n == NULL || g.square == NULL) {
+    if (g.n == NULL || g.square == NULL) {
         status = ki_fail_memory(err, "the fit");
     } else {
-        weights w = {.slope = g.n + data.rows, .bend = g.n + 2 * data.rows};
+        weights w = {.slope = g.n + rows, .bend = g.n + 2 * rows};
 
-        for (size_t i = 0; i < data.rows; i++) {
-            if (data.x[i] < from || data.x[i] > to) continue;
-            e[count++] = (entry){data.x[i], data.y[i], data.set[i]};
-            largest = fmax(largest, fabs(data.y[i]));
-        }
         status = fill_grid(&g, e, count, err);
         if (status == KOKSMA_OK)
-            status = fit_grid(out, &g, &w, o->level > 0.0 ? o->level : 0.95,
-                              largest, err);
+            status = fit_grid(out, &g, &w, o->level > 0.0 ? o->level : 0.95, err);
     }
     free(e);
     free(g.n);
@@ -266,6 +293,7 @@ koksma_comparison koksma_fit_compare(const koksma_fit_result *fit, double candid
     double se = fit->exponent_se, off = fit->exponent.value - candidate, reach;
 
     if (isnan(se)) return (koksma_comparison){nan(""), KOKSMA_NO_VERDICT};
+    if (off == 0.0) se = fmax(se, DBL_MIN); /* t is 0 then, whatever se */
     /* Two tests at 5 % each: the interval at 90 %. */
     reach = se * ki_student_quantile(0.90, fit->sets - 1);
     if (fabs(off) + reach < margin)

@@ -55,9 +55,10 @@ typedef struct koksma_fit_result {
  * where rounding speaks.
  *
  * Returns: KOKSMA_OK; KOKSMA_EINVAL: options out of range, or fewer than 3 N's
- *          left; KOKSMA_EDOMAIN: an N not above 0, a number that is not finite, or
- *          two errors of one replicate at one N; KOKSMA_ENOMEM
- * Cost:    rows log rows + used*sets; memory used*sets
+ *          left or too close to each other for a slope; KOKSMA_EDOMAIN: an N not
+ *          above 0, a number that is not finite, or two errors of one replicate at
+ *          one N of the window; KOKSMA_ENOMEM
+ * Cost:    rows log rows + used*sets^2; memory rows + used*sets
  * Source:  jackknife: [Efron 1982, ch. 3] */
 koksma_status koksma_fit(koksma_fit_result *out, koksma_fit_data data,
                          const koksma_fit_opts *opts, koksma_error *err);

@@ -7,10 +7,13 @@
 #include "error.h"
 #include "gen_kernels.h"
 
+/* As many primes are below 2^32, where bases are. */
+enum { PRIMES = 203280221 };
+
 const koksma_gen_family koksma_gen_families[] = {
     {"halton", "radical inverses in coprime bases, the first primes by default",
-     SIZE_MAX, true, true, false, &ki_gen_halton},
-    {"hammersley", "i/n, then halton", SIZE_MAX, false, true, false,
+     PRIMES, true, true, false, &ki_gen_halton},
+    {"hammersley", "i/n, then halton", PRIMES + 1, false, true, false,
      &ki_gen_hammersley},
     {"sobol", "digital sequence in base 2, Joe and Kuo's direction numbers", 50,
      true, false, false, &ki_gen_sobol},

@@ -42,7 +42,7 @@ koksma_status koksma_reader_next(koksma_reader *r, size_t *columns,
 
 /* Read rows of the current set, as many as there are up to room.
  *
- * Out:     rows     room*columns numbers, row after row
+ * Out:     rows     room*columns numbers, row after row; also written to on failure
  *          got      rows read; 0 when the set has ended
  * Returns: as koksma_reader_next */
 koksma_status koksma_reader_rows(koksma_reader *r, double *rows, size_t room,
@@ -98,7 +98,7 @@ void koksma_table_free(koksma_table *table);
  */
 
 typedef enum koksma_form {
-    KOKSMA_DECIMAL, /* tab-separated, the fewest digits that read back the same */
+    KOKSMA_DECIMAL, /* tab-separated, as koksma_format_number has it */
     KOKSMA_HEX,     /* tab-separated, C's %a */
     KOKSMA_NPY      /* NumPy's bytes, after koksma_write_npy_header */
 } koksma_form;
@@ -117,8 +117,8 @@ koksma_status koksma_write_npy_header(FILE *out, size_t n, size_t columns,
 /* Room for any double as text, the final NUL included. */
 #define KOKSMA_NUMBER_SIZE 32
 
-/* v in the fewest digits, at most 17, that strtod reads back as v; returns the
- * length.  Where 17 digits do, %.17g is at most as short. */
+/* v as the first of %.15g, %.16g and %.17g that strtod reads back as v, in the C
+ * locale; returns the length. */
 size_t koksma_format_number(char text[KOKSMA_NUMBER_SIZE], double v);
 
 #endif

@@ -56,8 +56,9 @@ koksma_status koksma_write_rows(FILE *out, const double *rows, size_t n,
     return KOKSMA_OK;
 
 failed:
+    refused(err); /* before anything else changes errno */
     ki_c_locale_leave(l);
-    return refused(err);
+    return KOKSMA_EIO;
 }
 
 koksma_status koksma_write_npy_header(FILE *out, size_t n, size_t columns,

@@ -50,8 +50,9 @@ int ki_sum_sign(const double *terms, size_t n);
 /* vol: the product of dim numbers in [0,1]. */
 ki_twofold ki_volume(const double *corner, size_t dim);
 
-/* The interval of sign * (inside/n - vol), rounded outward: at most two ulps
- * wide, and a single number when that number is exact.  0 <= inside <= n < 2^51. */
+/* The interval of sign * (inside/n - vol), rounded outward: at most two ulps wide,
+ * or 3 vol.err where nearly all of it cancels, and a single number when that is
+ * exact and vol.err is 0.  0 <= inside <= n < 2^51. */
 koksma_interval ki_deviation(double sign, size_t inside, size_t n, ki_twofold vol);
 
 /* The t such that a Student variable with nu degrees of freedom lies in

@@ -408,6 +408,11 @@ START_TEST(refused)
     check_refused(t, NULL, KOKSMA_EINVAL, "row 10 is of set 4, but there are 3");
     t->set[9] = 0;
     fit(t, NULL);
+    for (size_t i = 0; i < t->rows; i++)
+        t->x[i] = 0x1p52 + t->x[i]; /* of which all logarithms are equal */
+    check_refused(t, NULL, KOKSMA_EINVAL, "too close to each other for a slope");
+    for (size_t i = 0; i < t->rows; i++)
+        t->x[i] -= 0x1p52;
     t->sets = 4; /* one that has no errors at all */
     check_refused(t, NULL, KOKSMA_EINVAL, "12 dropped");
     t->sets = SIZE_MAX;

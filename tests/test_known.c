@@ -147,19 +147,23 @@ END_TEST
 int main(void)
 {
     Suite *suite = suite_create("known");
-    TCase *quick = tcase_create("quick"), *big = tcase_create("big");
+    TCase *quick = tcase_create("quick"), *slow = tcase_create("slow");
+    TCase *big = tcase_create("big");
     SRunner *runner = srunner_create(suite);
     int failed;
 
-    tcase_add_test(quick, published_values);
     tcase_add_test(quick, hammersley);
     tcase_add_test(quick, van_der_corput);
-    tcase_add_test(quick, grids);
     tcase_set_timeout(quick, 60);
+    tcase_add_test(slow, published_values);
+    tcase_add_test(slow, grids);
+    tcase_set_tags(slow, "slow");
+    tcase_set_timeout(slow, 120);
     tcase_add_test(big, published_values_with_patience);
     tcase_set_tags(big, "big");
     tcase_set_timeout(big, 1200);
     suite_add_tcase(suite, quick);
+    suite_add_tcase(suite, slow);
     suite_add_tcase(suite, big);
     srunner_run_all(runner, CK_ENV);
     failed = srunner_ntests_failed(runner);
