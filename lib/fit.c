@@ -154,7 +154,8 @@ static bool fill_weights(weights *w, const grid *g)
     }
     for (size_t i = 0; i < g->rows; i++)
         w->bend[i] /= p2;
-    return u2 > 0.0 && p2 > 0.0;
+    /* Far above what the rounding of the logarithms makes of equal N's. */
+    return u2 / m > 1e-12 && p2 > 1e-10 * u2 * u2 / m;
 }
 
 /* One line through ln rms, without replicate `left_out` (sets: with all). */
