@@ -1,12 +1,10 @@
 #include "star.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "error.h"
-#include "num_kernels.h"
 #include "star_kernels.h"
 
 static size_t count_inside(const double *corner, koksma_points p, bool closed)
@@ -24,58 +22,10 @@ static size_t count_inside(const double *corner, koksma_points p, bool closed)
     return inside;
 }
 
-/* No deviation is above 1, though a rounded one may seem so. */
-static koksma_interval local(koksma_points p, const double *corner, size_t inside,
-                             bool closed)
-{
-    koksma_interval v =
-        ki_deviation(closed ? 1.0 : -1.0, inside, p.n, ki_volume(corner, p.dim));
-
-    if (v.upper > 1.0) v.upper = 1.0;
-    return v;
-}
-
 koksma_interval koksma_box_local(const koksma_box *box, koksma_points p)
 {
-    return local(p, box->corner, count_inside(box->corner, p, box->closed),
-                 box->closed);
-}
-
-/* Whether a comes before b in lexicographic order. */
-static bool precedes(const double *a, const double *b, size_t dim)
-{
-    size_t k = 0;
-
-    while (k < dim && a[k] == b[k])
-        k++;
-    return k < dim && a[k] < b[k];
-}
-
-void ki_best_offer(ki_best *b, const double *corner, size_t inside, bool closed)
-{
-    size_t dim = b->p.dim;
-    koksma_interval v = local(b->p, corner, inside, closed);
-
-    if (v.upper > b->value.upper) b->value.upper = v.upper;
-    if (v.lower < b->value.lower ||
-        (v.lower == b->value.lower && !precedes(corner, b->witness.corner, dim)))
-        return;
-    memcpy(b->witness.corner, corner, dim * sizeof *corner);
-    b->witness.inside = inside;
-    b->witness.closed = closed;
-    b->value.lower = v.lower;
-    b->bar = v.lower - b->slack;
-}
-
-/* A plain deviation is off by less than dim + 2 half-ulps of 1: dim - 1 products,
- * two roundings in count * (1/n) or one in count/n, one subtraction, and a
- * margin for second-order terms and underflow. */
-static ki_best best_begin(koksma_points p, double *corner)
-{
-    double slack = (double)(p.dim + 2) * 2.0 * DBL_EPSILON;
-
-    return (ki_best){
-        .p = p, .witness.corner = corner, .slack = slack, .bar = -slack};
+    return ki_box_deviation(p, box->corner,
+                            count_inside(box->corner, p, box->closed), box->closed);
 }
 
 /* The sweep is the plainer one, and the faster one for few corners: measured. */
@@ -116,7 +66,7 @@ koksma_status koksma_star(koksma_star_result *out, koksma_points p,
     corner = calloc(p.dim, sizeof *corner);
     if (corner == NULL) return ki_fail_memory(err, "a corner");
 
-    ki_best best = best_begin(p, corner);
+    ki_best best = ki_best_begin(p, corner);
 
     r.method = choose(opts, p);
     if (r.method == KOKSMA_STAR_SWEEP)

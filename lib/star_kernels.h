@@ -18,6 +18,13 @@ typedef struct ki_best {
     double bar; /* value.lower - slack */
 } ki_best;
 
+/* corner has room for p.dim numbers, all 0, and outlives what is returned. */
+ki_best ki_best_begin(koksma_points p, double *corner);
+
+/* The interval of a box's local discrepancy, as koksma_box_local has it. */
+koksma_interval ki_box_deviation(koksma_points p, const double *corner,
+                                 size_t inside, bool closed);
+
 /* Offer the box at corner.  A kernel that cannot tell tied coordinates apart may
  * give a count that understates the deviation (too high for an open box, too low
  * for a closed one), if it also offers the same corner with the true count: the
