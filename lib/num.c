@@ -84,7 +84,7 @@ static double divide_down(ki_twofold a, double n)
     return q;
 }
 
-koksma_interval ki_deviation(double sign, size_t inside, size_t n, ki_twofold vol)
+ki_twofold ki_excess(double sign, size_t inside, size_t n, ki_twofold vol)
 {
     /* a = sign * (inside - n*vol).  n*hi = p + e exactly; n*lo rounds by at most
      * n 2^-107.  e and the rests are at most n 2^-53, so the two sums of low
@@ -95,16 +95,26 @@ koksma_interval ki_deviation(double sign, size_t inside, size_t n, ki_twofold vo
     double low = ki_two_sum(-e, -q, &rest2);
     double lows = ki_two_sum(rest, low, &rest3);
     ki_twofold a = {0.0, 0.0, m * vol.err * (1.0 + DBL_EPSILON)};
-    koksma_interval v;
 
     if (rest2 != 0.0 || rest3 != 0.0 || fma(m, vol.lo, -q) != 0.0)
         a.err += m * 0x1p-103;
     a.hi = ki_two_sum(high, lows, &a.lo);
     a.hi *= sign;
     a.lo *= sign;
-    v.lower = divide_down(a, m);
+    return a;
+}
+
+koksma_interval ki_divide(ki_twofold a, size_t n)
+{
+    koksma_interval v = {divide_down(a, (double)n), 0.0};
+
     a.hi = -a.hi;
     a.lo = -a.lo;
-    v.upper = -divide_down(a, m);
+    v.upper = -divide_down(a, (double)n);
     return v;
+}
+
+koksma_interval ki_deviation(double sign, size_t inside, size_t n, ki_twofold vol)
+{
+    return ki_divide(ki_excess(sign, inside, n, vol), n);
 }

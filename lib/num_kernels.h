@@ -50,9 +50,14 @@ int ki_sum_sign(const double *terms, size_t n);
 /* vol: the product of dim numbers in [0,1]. */
 ki_twofold ki_volume(const double *corner, size_t dim);
 
-/* The interval of sign * (inside/n - vol), rounded outward: at most two ulps wide,
- * or 3 vol.err where nearly all of it cancels, and a single number when that is
- * exact and vol.err is 0.  0 <= inside <= n < 2^51. */
+/* sign * (inside - n*vol), 0 <= inside <= n < 2^51: how many points too many. */
+ki_twofold ki_excess(double sign, size_t inside, size_t n, ki_twofold vol);
+
+/* The interval of a/n, rounded outward: at most two ulps wide, or 3 a.err/n where a
+ * is nearly 0, and a single number when that is exact and a.err is 0. */
+koksma_interval ki_divide(ki_twofold a, size_t n);
+
+/* The interval of sign * (inside/n - vol): both of the above. */
 koksma_interval ki_deviation(double sign, size_t inside, size_t n, ki_twofold vol);
 
 /* The t such that a Student variable with nu degrees of freedom lies in

@@ -64,14 +64,12 @@ typedef struct koksma_star_opts {
 /* Bound the star discrepancy of p.
  *
  * Out:     out    value: exact but for rounding, one or two units in the last
- *                 place wide, unless a tolerance is given; witness: of the boxes
- *                 whose deviation, rounded to such an interval, is the best the one
- *                 with the lexicographically least corner (with a tolerance: some
- *                 box).  out->witness.corner is an input too: NULL, or room for dim
- *                 doubles
- *          err    filled on failure; may be NULL
- * In:      p      n < 2^31 points in [0,1]^dim, ties allowed
- *          opts   NULL means KOKSMA_STAR_DEFAULTS
+ *                 place wide, unless a tolerance is given; witness: the best
+ *                 box, of equally good ones that with the lexicographically least
+ *                 corner; compared with twice the precision of a double (with a
+ *                 tolerance: some box).  out->witness.corner is an input too: NULL,
+ * or room for dim doubles err    filled on failure; may be NULL In:      p      n <
+ * 2^31 points in [0,1]^dim, ties allowed opts   NULL means KOKSMA_STAR_DEFAULTS
  * Returns: KOKSMA_OK; KOKSMA_STOPPED when progress said so or the work ran out:
  *          value is then true, but wider; KOKSMA_EINVAL or KOKSMA_EDOMAIN as
  *          koksma_points_check, and for options out of range; KOKSMA_ENOMEM

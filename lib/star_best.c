@@ -1,4 +1,5 @@
 #include <float.h>
+#include <math.h>
 #include <string.h>
 
 #include "num_kernels.h"
@@ -25,20 +26,43 @@ static bool precedes(const double *a, const double *b, size_t dim)
     return k < dim && a[k] < b[k];
 }
 
+/* Whether a box with this excess and corner is to stand before the witness.  The
+ * order is one of the boxes alone, so that the witness does not depend on the
+ * order in which they are offered; and it is fine enough to tell a box from those
+ * that a longer or shorter side makes slightly worse. */
+static bool is_better(const ki_best *b, ki_twofold excess, const double *corner)
+{
+    if (excess.hi != b->excess.hi) return excess.hi > b->excess.hi;
+    if (excess.lo != b->excess.lo) return excess.lo > b->excess.lo;
+    return precedes(corner, b->witness.corner, b->p.dim);
+}
+
+/* Two boxes whose excesses differ by less than the errors of both: either may be
+ * the better one. */
+static bool may_tie(ki_twofold a, ki_twofold b)
+{
+    return fabs((a.hi - b.hi) + (a.lo - b.lo)) <= a.err + b.err;
+}
+
+/* The value is that of the witness, with the error of any box that may tie with it:
+ * all others are surely below.  So it does not depend on the order either. */
 void ki_best_offer(ki_best *b, const double *corner, size_t inside, bool closed)
 {
-    size_t dim = b->p.dim;
-    koksma_interval v = ki_box_deviation(b->p, corner, inside, closed);
+    ki_twofold excess =
+        ki_excess(closed ? 1.0 : -1.0, inside, b->p.n, ki_volume(corner, b->p.dim));
+    bool better = is_better(b, excess, corner), tie = may_tie(excess, b->excess);
 
-    if (v.upper > b->value.upper) b->value.upper = v.upper;
-    if (v.lower < b->value.lower ||
-        (v.lower == b->value.lower && !precedes(corner, b->witness.corner, dim)))
-        return;
-    memcpy(b->witness.corner, corner, dim * sizeof *corner);
-    b->witness.inside = inside;
-    b->witness.closed = closed;
-    b->value.lower = v.lower;
-    b->bar = v.lower - b->slack;
+    if (!better && !tie) return;
+    if (tie) excess.err = b->excess.err = fmax(excess.err, b->excess.err);
+    if (better) {
+        memcpy(b->witness.corner, corner, b->p.dim * sizeof *corner);
+        b->witness.inside = inside;
+        b->witness.closed = closed;
+        b->excess = excess;
+    }
+    b->value = ki_divide(b->excess, b->p.n);
+    b->value.upper = fmin(b->value.upper, 1.0);
+    b->bar = b->value.lower - b->slack;
 }
 
 /* A plain deviation is off by less than dim + 2 half-ulps of 1: dim - 1 products,

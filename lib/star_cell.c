@@ -295,11 +295,12 @@ koksma_status ki_worker_begin(ki_worker *w, const ki_ranks *ranks, ki_best *best
     w->new_high = ki_alloc(dim, sizeof *w->new_high);
     w->best_term = ki_alloc(dim, sizeof *w->best_term);
     w->pillars = ki_alloc(dim, sizeof *w->pillars);
+    w->best_rank = ki_alloc(dim, sizeof *w->best_rank);
     w->corner = ki_alloc(dim, sizeof *w->corner);
     if (w->outs != NULL && w->opens != NULL && w->axis_of != NULL &&
         w->weight != NULL && w->reach != NULL && w->new_low != NULL &&
         w->new_high != NULL && w->best_term != NULL && w->pillars != NULL &&
-        w->corner != NULL && enter_root(w))
+        w->best_rank != NULL && w->corner != NULL && enter_root(w))
         return KOKSMA_OK;
     ki_worker_end(w);
     return KOKSMA_ENOMEM;
@@ -322,7 +323,9 @@ void ki_worker_end(ki_worker *w)
     free(w->new_high);
     free(w->best_term);
     free(w->pillars);
+    free(w->best_rank);
     free(w->term);
+    free(w->share);
     free(w->corner);
     *w = (ki_worker){0};
 }

@@ -1,6 +1,7 @@
 #ifndef KI_STAR_KERNELS_H
 #define KI_STAR_KERNELS_H
 
+#include "num_kernels.h"
 #include "star.h"
 
 /* Private: the incumbent to which the kernels of the star discrepancy offer
@@ -8,12 +9,14 @@
 
 /* The best box so far.  A kernel works with deviations in plain doubles, off by
  * less than half of `slack`.  Only those above `bar` can matter, even as ties,
- * and ki_best_offer evaluates them exactly; so value.lower is proven by the
- * witness and no box seen so far deviates by more than value.upper. */
+ * and ki_best_offer evaluates them with twice the precision; so value.lower is
+ * proven by the witness and no box seen so far deviates by more than value.upper.
+ */
 typedef struct ki_best {
     koksma_points p;
     koksma_interval value;
     koksma_box witness; /* its corner has room for p.dim doubles */
+    ki_twofold excess;  /* n times its local discrepancy */
     double slack;
     double bar; /* value.lower - slack */
 } ki_best;

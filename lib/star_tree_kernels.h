@@ -7,11 +7,12 @@
 
 #include "star_kernels.h"
 
-/* Private: the branch and bound for the star discrepancy, in four files:
+/* Private: the branch and bound for the star discrepancy, in these files:
  *
  *   star_ranks.c   coordinates as ranks
  *   star_cell.c    cells of corners, and the points that matter in each
- *   star_bound.c   what a cell can hold at most, for open and for closed boxes
+ *   star_bound.c   what a cell can hold at most, and why; then, for either kind of
+ *                  box, star_bound_open.c and star_bound_closed.c
  *   star_tree.c    the search
  *
  * Open and closed boxes are two problems with one incumbent.  In either a corner
@@ -80,13 +81,15 @@ typedef struct ki_worker {
     uint32_t *outs, *opens; /* n: axes along which a point is out; open */
     double *weight;         /* n: of a point in the relaxation of open boxes */
     double *reach;          /* n: how far up the open ranges a point stands */
-    uint32_t *axis_of;      /* n: the axis that a point is charged to (closed) */
+    uint32_t *axis_of;      /* n: an axis that a point is charged to (closed) */
 
     uint32_t *new_low, *new_high; /* dim: the ranges wanted next */
     double *best_term;            /* dim */
-    size_t *pillars; /* dim: entries of points open along other axes too */
-    double *term;    /* of each entry, and one more a list */
-    size_t room_terms;
+    size_t *pillars;     /* dim: entries of points open along other axes too */
+    uint32_t *best_rank; /* dim: where the bound finds the best corner */
+    double *term;        /* of each entry, and one more a list */
+    double *share;       /* what each entry is charged (closed) */
+    size_t room_terms, room_shares;
     double *corner; /* dim */
 
     double work;   /* list entries looked at */
@@ -112,6 +115,49 @@ void ki_cell_leave(ki_worker *w, const ki_cell *c);
 /* An upper bound of the deviations of all corners in the cell that are not below
  * the target; new_low and new_high get the ranges that such corners keep to.
  * Below the target, the bound says that there is none. */
-double ki_cell_bound(ki_worker *w, ki_cell *c, double target);
+double ki_cell_bound(ki_worker *w, const ki_cell *c, double target);
+
+/* ---- What the two halves of the bound share ---------------------------------- */
+
+/* The volumes at the ends of a cell, their logarithms, and A of star_bound.c. */
+typedef struct ki_extent {
+    double volume_low, volume_high, log_low, log_high, logs;
+} ki_extent;
+
+ki_extent ki_cell_extent(const ki_worker *w, const ki_cell *c);
+
+/* What rounding can take from a bound; see star_bound.c. */
+double ki_bound_pad(size_t dim, double slope_times_logs);
+
+/* The entries of axis k that are open along it: begin <= i < end. */
+typedef struct ki_span {
+    size_t begin, end;
+} ki_span;
+
+ki_span ki_open_entries(const ki_worker *w, const ki_cell *c, size_t k);
+
+/* How far up the range of axis k a rank stands, from 0 to 1, by logarithms:
+ * (log[rank] - low) * inverse. */
+typedef struct ki_scale {
+    const double *log;
+    double low, inverse;
+} ki_scale;
+
+ki_scale ki_axis_scale(const ki_worker *w, const ki_cell *c, size_t k);
+
+/* Keep of the new ranges what lies between the first and the last rank whose term
+ * is within slack of the best: with any other, even the best of all other axes
+ * stay below the target.  side: -1 where the least is best, 1 the greatest. */
+void ki_tighten(ki_worker *w, const ki_cell *c, double slack, double side);
+
+/* Round `round` of adapting the weights to the corner that the last one found
+ * best: whether it is worth its while. */
+bool ki_round_pays(const ki_worker *w, int round, double gap);
+
+/* Find the corner whose terms are best: best_rank. */
+void ki_find_best(ki_worker *w, const ki_cell *c);
+
+double ki_bound_open(ki_worker *w, const ki_cell *c, double target);
+double ki_bound_closed(ki_worker *w, const ki_cell *c, double target);
 
 #endif
