@@ -85,12 +85,25 @@ void koksma_gen_close(koksma_gen *g)
     free(g);
 }
 
+/* The kernels fill a coordinate at a time.  In blocks that stay in the cache the
+ * rows are there when the next coordinate comes. */
+static void fill_blocks(const koksma_gen *g, double *x, uint64_t first, size_t count)
+{
+    size_t block = 8192 / g->opts.dim + 16;
+
+    for (size_t i = 0; i < count; i += block) {
+        size_t now = count - i < block ? count - i : block;
+
+        g->family->kernel->fill(g, x + i * g->opts.dim, first + i, now);
+    }
+}
+
 koksma_status koksma_gen_fill(const koksma_gen *g, double *x, uint64_t first,
                               size_t count, koksma_error *err)
 {
     if (first > g->opts.n || count > g->opts.n - first)
         return ki_fail(err, KOKSMA_EINVAL, 0, "points from %ju on: the set has %ju",
                        (uintmax_t)first, (uintmax_t)g->opts.n);
-    if (count > 0) g->family->kernel->fill(g, x, g->opts.start + first, count);
+    fill_blocks(g, x, g->opts.start + first, count);
     return KOKSMA_OK;
 }

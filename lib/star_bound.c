@@ -24,7 +24,7 @@
  * the other entries only claim less.
  *
  * All weights are multiples of 1/256, so that every K is exact.  They start as 0 or
- * 1; from 7 axes on it pays to move them, a few times, towards what is exact at the
+ * 1; from 9 axes on it pays to move them, a few times, towards what is exact at the
  * corner that the bound found best (a subgradient step on the dual), and every
  * round bounds anew.
  *
@@ -79,14 +79,14 @@ ki_scale ki_axis_scale(const ki_worker *w, const ki_cell *c, size_t k)
     return (ki_scale){log, log[c->low[k]], width > 0.0 ? 1.0 / width : 0.0};
 }
 
-/* Measured: rounds cost more than they save below 7 axes, and the more axes there
+/* Measured: rounds cost more than they save below 9 axes, and the more axes there
  * are the more of them pay. */
 bool ki_round_pays(const ki_worker *w, int round, double gap)
 {
     size_t dim = w->ranks->dim;
     double pillars = 0.0;
 
-    if (dim < 7 || (size_t)round > (dim - 5) / 2) return false;
+    if (dim < 9 || (size_t)round > (dim - 5) / 2) return false;
     for (size_t k = 0; k < dim; k++)
         pillars += (double)w->pillars[k];
     return gap * round <= 0.1 * pillars / (double)w->ranks->n;
