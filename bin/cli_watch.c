@@ -7,10 +7,14 @@
 
 static volatile sig_atomic_t interrupted;
 
+/* The third one ends the program, should the job not listen.  Not the second: some
+ * programs send an interrupt to the process and to its group. */
 static void on_interrupt(int number)
 {
-    (void)number;
-    interrupted = 1;
+    interrupted = interrupted + 1;
+    if (interrupted < 3) return;
+    signal(number, SIG_DFL);
+    raise(number);
 }
 
 static double now(void)
@@ -23,9 +27,7 @@ static double now(void)
 
 void cli_watch_start(cli_watch *watch)
 {
-    /* A second interrupt ends the program, should the job not listen. */
-    struct sigaction action = {.sa_handler = on_interrupt,
-                               .sa_flags = (int)SA_RESETHAND};
+    struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = SA_RESTART};
 
     sigemptyset(&action.sa_mask);
     interrupted = 0;

@@ -197,5 +197,8 @@ has interrupt 3 '	1$' \
     'koksma-points random -d 12 -n 5000 >p
      sh -c "trap - INT; exec koksma-star -q p" & sleep 1; kill -INT $!; wait $!'
 
+has interrupt-twice 3 '	1$' \
+    'sh -c "trap - INT; exec koksma-star -q p" & sleep 1; kill -INT $!; kill -INT $!; wait $!'
+
 [ "$failures" -eq 0 ] || echo "$failures rows failed"
 [ "$failures" -eq 0 ]
