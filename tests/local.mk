@@ -21,7 +21,8 @@ EXTRA_DIST += $(structure_scripts) %D%/replay.sh %D%/corpus
 if HAVE_CHECK
 check_LTLIBRARIES += %D%/liboracle.la
 %C%_liboracle_la_SOURCES = \
-  %D%/oracle.c %D%/oracle.h %D%/io_fixture.h %D%/npy_fixture.h
+  %D%/oracle.c %D%/oracle.h %D%/gen_fixture.h %D%/io_fixture.h \
+  %D%/npy_fixture.h
 
 unit_tests = \
   %D%/test_curve %D%/test_extra %D%/test_fit %D%/test_gen %D%/test_gen_digits \

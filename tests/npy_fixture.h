@@ -1,6 +1,8 @@
 #ifndef KOKSMA_TESTS_NPY_FIXTURE_H
 #define KOKSMA_TESTS_NPY_FIXTURE_H
 
+#include <check.h>
+
 #include "io_fixture.h"
 
 /* NumPy's arrays, written byte by byte and on any machine alike. */
@@ -89,6 +91,27 @@ static inline const char *type_name(size_t type)
                                              "<f4", ">f4", "=f4"};
 
     return names[type % TYPES];
+}
+
+#define P KOKSMA_POINTS
+#define V KOKSMA_VALUES
+
+/* Read whole or by any number of rows, the sets are these. */
+static inline void check_sets(FILE *in, koksma_content content, const char *sets)
+{
+    for (size_t room = 0; room <= 4; room++) {
+        rendering got;
+        koksma_error err = {0};
+
+        rewind(in);
+        koksma_status status = room == 0
+                                   ? render_sets(&got, in, content, &err)
+                                   : render_by_rows(&got, in, content, room, &err);
+
+        ck_assert_msg(status == KOKSMA_OK, "%s", err.text);
+        ck_assert_str_eq(got.text, sets);
+    }
+    fclose(in);
 }
 
 #endif

@@ -9,26 +9,6 @@
 #include "npy_fixture.h"
 #include "oracle.h"
 
-#define P KOKSMA_POINTS
-#define V KOKSMA_VALUES
-
-static void check_sets(FILE *in, koksma_content content, const char *sets)
-{
-    for (size_t room = 0; room <= 4; room++) {
-        rendering got;
-        koksma_error err = {0};
-
-        rewind(in);
-        koksma_status status = room == 0
-                                   ? render_sets(&got, in, content, &err)
-                                   : render_by_rows(&got, in, content, room, &err);
-
-        ck_assert_msg(status == KOKSMA_OK, "%s", err.text);
-        ck_assert_str_eq(got.text, sets);
-    }
-    fclose(in);
-}
-
 /* Every version, type, byte order and order of axes. */
 START_TEST(every_kind_of_array)
 {

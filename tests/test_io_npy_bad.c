@@ -7,26 +7,6 @@
 #include "io.h"
 #include "npy_fixture.h"
 
-#define P KOKSMA_POINTS
-#define V KOKSMA_VALUES
-
-static void check_sets(FILE *in, koksma_content content, const char *sets)
-{
-    for (size_t room = 0; room <= 4; room++) {
-        rendering got;
-        koksma_error err = {0};
-
-        rewind(in);
-        koksma_status status = room == 0
-                                   ? render_sets(&got, in, content, &err)
-                                   : render_by_rows(&got, in, content, room, &err);
-
-        ck_assert_msg(status == KOKSMA_OK, "%s", err.text);
-        ck_assert_str_eq(got.text, sets);
-    }
-    fclose(in);
-}
-
 static void check_refused(FILE *in, koksma_content content, koksma_status want,
                           const char *sentence)
 {
