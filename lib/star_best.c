@@ -62,6 +62,7 @@ void ki_best_offer(ki_best *b, const double *corner, size_t inside, bool closed)
     }
     b->value = ki_divide(b->excess, b->p.n);
     b->value.upper = fmin(b->value.upper, 1.0);
+    b->proven = fmax(b->proven, b->value.lower);
     b->bar = b->value.lower - b->slack;
 }
 

@@ -85,7 +85,7 @@ static double chord_slope(ki_extent x, double least, size_t dim)
     return (x.volume_high - low) / width * safe;
 }
 
-/* One walk along the list of axis k for open boxes: terms, and the least. */
+/* One walk along the list of axis k: terms, and the least. */
 static double walk_open(ki_worker *w, const ki_cell *c, size_t k, double *term,
                         double slope)
 {
@@ -105,9 +105,10 @@ static double walk_open(ki_worker *w, const ki_cell *c, size_t k, double *term,
     }
     for (; i < count; i++)
         term[i] = passed * share;
-    /* One more: at `high` itself, where 1 is the end of the range. */
-    term[count] = c->high[k] == w->ranks->axis[k].top ? passed * share : HUGE_VAL;
-    if (count > end) term[count] = passed * share;
+    /* One more: at `high` itself, if a point is there or it is 1. */
+    term[count] = count > end || c->high[k] == w->ranks->axis[k].top
+                      ? passed * share
+                      : HUGE_VAL;
     return fmin(least, term[count]);
 }
 

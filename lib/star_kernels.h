@@ -17,6 +17,8 @@ typedef struct ki_best {
     koksma_interval value;
     koksma_box witness; /* its corner has room for p.dim doubles */
     ki_twofold excess;  /* n times its local discrepancy */
+    double proven; /* the greatest value.lower so far: D* is not below it, though a
+                    * box that may tie can widen value by an ulp later on */
     double slack;
     double bar; /* value.lower - slack */
 } ki_best;

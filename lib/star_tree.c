@@ -14,10 +14,7 @@ typedef struct search {
     bool stopped, no_memory;
 } search;
 
-static double target(const ki_worker *w)
-{
-    return w->best->value.lower * w->factor;
-}
+static double target(const ki_worker *w) { return w->best->proven * w->factor; }
 
 /* Whether one corner is left; it is then offered. */
 static bool is_corner(ki_worker *w, const ki_cell *c)
@@ -214,7 +211,7 @@ static koksma_status search_stage(search *s, ki_best *b, const ki_ranks *open,
     if (status == KOKSMA_OK && !s->stopped)
         status = search_kind(s, b, open, factor);
     if (status == KOKSMA_OK && !s->stopped)
-        s->upper = fmin(s->upper, fmax(b->value.upper, factor * b->value.lower));
+        s->upper = fmin(s->upper, fmax(b->value.upper, factor * b->proven));
     return status;
 }
 
