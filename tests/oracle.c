@@ -248,3 +248,14 @@ double oracle_dyadic(oracle_rng *rng, unsigned bits)
 {
     return bits == 0 ? 0.0 : ldexp((double)(next(rng) >> (64 - bits)), -(int)bits);
 }
+
+int oracle_run(Suite *suite)
+{
+    SRunner *runner = srunner_create(suite);
+    int failed;
+
+    srunner_run_all(runner, CK_ENV);
+    failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}

@@ -1,6 +1,7 @@
 #ifndef KOKSMA_TESTS_ORACLE_H
 #define KOKSMA_TESTS_ORACLE_H
 
+#include <check.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -63,5 +64,8 @@ size_t oracle_below(oracle_rng *rng, size_t n);
 
 /* A multiple of 2^-bits in [0,1), bits <= 53. */
 double oracle_dyadic(oracle_rng *rng, unsigned bits);
+
+/* Run the suite as CK_ENV says, free it, and return what main returns. */
+int oracle_run(Suite *suite);
 
 #endif

@@ -347,7 +347,6 @@ int main(void)
 {
     Suite *suite = suite_create("curve");
     TCase *tc = tcase_create("rows");
-    SRunner *runner = srunner_create(suite);
 
     suite_add_tcase(suite, tc);
     tcase_add_test(tc, row_numbers);
@@ -364,10 +363,5 @@ int main(void)
     tcase_add_test(tc, root_mean_squares);
     tcase_add_test(tc, one_large_error);
     tcase_add_test(tc, no_interval);
-    srunner_run_all(runner, CK_ENV);
-
-    int failed = srunner_ntests_failed(runner);
-
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return oracle_run(suite);
 }

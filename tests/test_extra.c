@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "io.h"
+#include "oracle.h"
 #include "star.h"
 
 /* Sets that take more steps than this are bounded from below alone; those of up to
@@ -75,9 +76,7 @@ int main(void)
 {
     const char *folder = getenv("KOKSMA_EXTRA_SETS");
     Suite *suite;
-    SRunner *runner;
     TCase *tc;
-    int failed;
 
     if (folder == NULL || *folder == '\0') {
         puts("skipped: KOKSMA_EXTRA_SETS names no folder of point sets");
@@ -85,12 +84,8 @@ int main(void)
     }
     suite = suite_create("extra");
     tc = tcase_create("sets");
-    runner = srunner_create(suite);
     tcase_add_test(tc, sets_of_other_programs);
     tcase_set_timeout(tc, 600);
     suite_add_tcase(suite, tc);
-    srunner_run_all(runner, CK_ENV);
-    failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return oracle_run(suite);
 }

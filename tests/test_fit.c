@@ -544,7 +544,6 @@ int main(void)
 {
     Suite *suite = suite_create("fit");
     TCase *tc = tcase_create("lines");
-    SRunner *runner = srunner_create(suite);
 
     suite_add_tcase(suite, tc);
     tcase_add_test(tc, power_laws);
@@ -562,10 +561,5 @@ int main(void)
     tcase_set_timeout(tc, 600.0);
     tcase_add_test(tc, coverage);
     tcase_add_test(tc, jump_in_the_plane);
-    srunner_run_all(runner, CK_ENV);
-
-    int failed = srunner_ntests_failed(runner);
-
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return oracle_run(suite);
 }

@@ -325,7 +325,6 @@ END_TEST
 int main(void)
 {
     Suite *suite = suite_create("gen");
-    SRunner *runner = srunner_create(suite);
     TCase *tc = tcase_create("families");
 
     suite_add_tcase(suite, tc);
@@ -341,10 +340,5 @@ int main(void)
     tcase_add_loop_test(tc, refused, 0, sizeof refusals / sizeof *refusals);
     tcase_add_test(tc, just_legal);
     tcase_add_test(tc, refused_fills);
-    srunner_run_all(runner, CK_ENV);
-
-    int failed = srunner_ntests_failed(runner);
-
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return oracle_run(suite);
 }

@@ -326,7 +326,6 @@ END_TEST
 int main(void)
 {
     Suite *suite = suite_create("gen_digits");
-    SRunner *runner = srunner_create(suite);
     TCase *tc = tcase_create("radical inverses");
 
     suite_add_tcase(suite, tc);
@@ -346,10 +345,5 @@ int main(void)
     tcase_add_test(tc, sobol_by_recurrence);
     tcase_add_test(tc, sobol_as_published);
     tcase_add_test(tc, sobol_nets);
-    srunner_run_all(runner, CK_ENV);
-
-    int failed = srunner_ntests_failed(runner);
-
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return oracle_run(suite);
 }

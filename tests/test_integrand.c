@@ -276,7 +276,6 @@ int main(void)
 {
     Suite *suite = suite_create("integrand");
     TCase *tc = tcase_create("values");
-    SRunner *runner = srunner_create(suite);
 
     suite_add_tcase(suite, tc);
     tcase_set_timeout(tc, 20.0 * (double)oracle_scale());
@@ -290,10 +289,5 @@ int main(void)
     suite_add_tcase(suite, tc);
     tcase_add_test(tc, table_of_integrands);
     tcase_add_test(tc, refused);
-    srunner_run_all(runner, CK_ENV);
-
-    int failed = srunner_ntests_failed(runner);
-
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return oracle_run(suite);
 }

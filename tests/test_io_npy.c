@@ -249,14 +249,4 @@ static Suite *io_suite(void)
     return suite;
 }
 
-int main(void)
-{
-    SRunner *runner = srunner_create(io_suite());
-
-    srunner_run_all(runner, CK_ENV);
-
-    int failed = srunner_ntests_failed(runner);
-
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
-}
+int main(void) { return oracle_run(io_suite()); }

@@ -476,7 +476,6 @@ int main(void)
 {
     Suite *suite = suite_create("num");
     TCase *tc = tcase_create("exact");
-    SRunner *runner = srunner_create(suite);
 
     suite_add_tcase(suite, tc);
     tcase_set_timeout(tc, 20.0 * (double)oracle_scale());
@@ -491,10 +490,5 @@ int main(void)
     suite_add_tcase(suite, tc);
     tcase_add_test(tc, student_tables);
     tcase_add_test(tc, student_by_formulas);
-    srunner_run_all(runner, CK_ENV);
-
-    int failed = srunner_ntests_failed(runner);
-
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return oracle_run(suite);
 }

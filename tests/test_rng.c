@@ -241,7 +241,6 @@ int main(void)
 {
     Suite *suite = suite_create("rng");
     TCase *tc = tcase_create("values");
-    SRunner *runner = srunner_create(suite);
 
     suite_add_tcase(suite, tc);
     tcase_add_test(tc, follows_the_recurrence);
@@ -257,10 +256,5 @@ int main(void)
     tcase_add_test(tc, below_one);
     tcase_add_test(tc, streams_are_apart);
     tcase_add_test(tc, neighbours_are_unrelated);
-    srunner_run_all(runner, CK_ENV);
-
-    int failed = srunner_ntests_failed(runner);
-
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return oracle_run(suite);
 }
