@@ -71,39 +71,25 @@ ki_span ki_open_entries(const ki_worker *w, const ki_cell *c, size_t k)
     return s;
 }
 
-ki_scale ki_axis_scale(const ki_worker *w, const ki_cell *c, size_t k)
+double ki_inverse_width(const ki_worker *w, const ki_cell *c, size_t k)
 {
     const double *log = w->ranks->axis[k].log;
     double width = log[c->high[k]] - log[c->low[k]];
 
-    return (ki_scale){log, log[c->low[k]], width > 0.0 ? 1.0 / width : 0.0};
+    return width > 0.0 ? 1.0 / width : 0.0;
 }
 
 /* Measured: rounds cost more than they save below 9 axes, and the more axes there
  * are the more of them pay. */
-bool ki_round_pays(const ki_worker *w, int round, double gap)
+bool ki_round_pays(const ki_worker *w, uint32_t round, double gap)
 {
     size_t dim = w->ranks->dim;
     double pillars = 0.0;
 
-    if (dim < 9 || (size_t)round > (dim - 5) / 2) return false;
+    if (dim < 9 || round > (dim - 5) / 2) return false;
     for (size_t k = 0; k < dim; k++)
         pillars += (double)w->pillars[k];
     return gap * round <= 0.1 * pillars / (double)w->ranks->n;
-}
-
-void ki_find_best(ki_worker *w, const ki_cell *c)
-{
-    const double *term = w->term;
-
-    for (size_t k = 0; k < w->ranks->dim; k++) {
-        size_t count = c->end[k] - c->begin[k], i = 0;
-
-        while (i < count && term[i] != w->best_term[k])
-            i++;
-        w->best_rank[k] = i < count ? w->entry[c->begin[k] + i].rank : c->high[k];
-        term += count + (w->ranks->closed ? 0 : 1);
-    }
 }
 
 void ki_tighten(ki_worker *w, const ki_cell *c, double slack, double side)
@@ -137,9 +123,10 @@ static bool make_room(ki_worker *w, const ki_cell *c)
     for (size_t k = 0; k < w->ranks->dim; k++)
         need += c->end[k] - c->begin[k];
     w->work += (double)need;
-    return ki_grow((void **)&w->term, &w->room_terms, need, sizeof *w->term) == 0 &&
+    return ki_grow((void **)&w->gap, &w->room_gaps, need, sizeof *w->gap) == 0 &&
            ki_grow((void **)&w->share, &w->room_shares, need, sizeof *w->share) ==
-               0;
+               0 &&
+           ki_grow((void **)&w->term, &w->room_terms, need, sizeof *w->term) == 0;
 }
 
 double ki_cell_bound(ki_worker *w, const ki_cell *c, double target)

@@ -5,103 +5,92 @@
 
 /* The bound for closed boxes; star_bound.c has the mathematics. */
 
-/* The first charges: whole, to the axis where the point stands highest, since there
- * most corners leave it outside.  w->share has one number an entry, list after list
- * as the terms. */
-static void charge(ki_worker *w, const ki_cell *c)
+/* How far each entry is from the lower end, and for each point the axis where it
+ * stands highest. */
+static void measure(ki_worker *w, const ki_cell *c)
 {
-    const uint32_t *live = w->live + c->live;
-    double *share = w->share;
+    double *gap = w->gap;
 
     for (size_t i = 0; i < c->lives; i++)
-        w->reach[live[i]] = -1.0;
+        w->standing[w->live[c->live + i]].reach = -1.0f;
     for (size_t k = 0; k < w->ranks->dim; k++) {
-        ki_scale s = ki_axis_scale(w, c, k);
+        const double *log = w->ranks->axis[k].log;
+        double low = log[c->low[k]], inverse = ki_inverse_width(w, c, k);
         ki_span open = ki_open_entries(w, c, k);
         size_t pillars = 0;
 
+        for (size_t i = c->begin[k]; i < open.begin; i++)
+            gap++;
         for (size_t i = open.begin; i < open.end; i++) {
-            ki_entry e = w->entry[i];
-            double up = (s.log[e.rank] - s.low) * s.inverse;
+            ki_standing *s = &w->standing[w->entry[i].point];
+            float up;
 
-            if (up > w->reach[e.point]) {
-                w->reach[e.point] = up;
-                w->axis_of[e.point] = (uint32_t)k;
-            }
-            pillars += w->opens[e.point] > 1;
+            *gap = log[w->entry[i].rank] - low;
+            up = (float)(*gap++ * inverse);
+            s->choice = up > s->reach ? (uint32_t)k : s->choice;
+            s->reach = up > s->reach ? up : s->reach;
+            pillars += s->opens > 1;
         }
         w->pillars[k] = pillars;
     }
-    for (size_t k = 0; k < w->ranks->dim; k++) {
-        size_t first_open = ki_open_entries(w, c, k).begin;
-
-        for (size_t i = c->begin[k]; i < c->end[k]; i++)
-            *share++ =
-                i >= first_open && w->axis_of[w->entry[i].point] == k ? 1.0 : 0.0;
-    }
 }
 
-/* Move a part of the charges of every point that the best corner leaves outside to
- * an axis along which it does. */
-static void recharge(ki_worker *w, const ki_cell *c, double step)
-{
-    const uint32_t *live = w->live + c->live;
-    double *share = w->share;
+/* A whole charge, in the units of w->share.  Rounding only ever adds to the shares
+ * of a point: they sum to a whole or more, which is what the bound needs. */
+static const uint32_t WHOLE = 1 << 15;
 
-    for (size_t i = 0; i < c->lives; i++) {
-        w->axis_of[live[i]] = UINT32_MAX;
-        w->reach[live[i]] = 0.0;
-    }
+/* The choice of a point that the best corner has inside. */
+static const uint32_t INSIDE = UINT32_MAX;
+
+/* Choose for each point an axis along which the best corner leaves it outside. */
+static void choose_outside(ki_worker *w, const ki_cell *c)
+{
+    for (size_t i = 0; i < c->lives; i++)
+        w->standing[w->live[c->live + i]].choice = INSIDE;
     for (size_t k = 0; k < w->ranks->dim; k++)
         for (size_t i = c->end[k];
              i-- > c->begin[k] && w->entry[i].rank > w->best_rank[k];)
-            w->axis_of[w->entry[i].point] = (uint32_t)k;
-    for (size_t k = 0; k < w->ranks->dim; k++)
-        for (size_t i = c->begin[k]; i < c->end[k]; i++, share++) {
-            uint32_t p = w->entry[i].point;
-            double moved;
-
-            if (*share == 0.0 || w->axis_of[p] == UINT32_MAX) continue;
-            moved = floor(*share * step * 256.0) / 256.0;
-            *share -= moved;
-            w->reach[p] += moved;
-        }
-    share = w->share;
-    for (size_t k = 0; k < w->ranks->dim; k++) {
-        size_t first_open = ki_open_entries(w, c, k).begin;
-
-        for (size_t i = c->begin[k]; i < c->end[k]; i++, share++)
-            if (i >= first_open && w->axis_of[w->entry[i].point] == k)
-                *share += w->reach[w->entry[i].point];
-    }
+            w->standing[w->entry[i].point].choice = (uint32_t)k;
 }
 
-/* One walk along the list of axis k: terms, and the greatest. */
-static double walk_closed(ki_worker *w, const ki_cell *c, size_t k, double *term,
-                          const double *share, double slope)
+/* One walk along the list of axis k, whose gaps, shares and terms begin at `at`. It
+ * moves 1/round of the charges of every point to the axis of its choice, if it has
+ * one, and finds the terms with these charges, and the greatest of them. */
+static void walk(ki_worker *w, const ki_cell *c, size_t k, size_t at,
+                 uint32_t round, double slope)
 {
-    const double *log = w->ranks->axis[k].log;
-    double low = log[c->low[k]], part = 1.0 / (double)w->ranks->n;
-    double passed = 0.0, greatest = -HUGE_VAL;
     const ki_entry *e = w->entry + c->begin[k];
-    size_t count = c->end[k] - c->begin[k], i = 0;
+    const double *gap = w->gap + at;
+    uint16_t *share = w->share + at;
+    double *term = w->term + at, greatest = -HUGE_VAL;
+    double unit = 1.0 / ((double)WHOLE * (double)w->ranks->n);
+    size_t count = c->end[k] - c->begin[k], i, best = 0;
+    uint32_t part = 65536 / round, gain = (WHOLE + round - 1) / round;
+    int64_t passed = 0;
 
-    for (; i < count && e[i].rank == c->low[k]; i++)
+    for (i = 0; i < count && e[i].rank == c->low[k]; i++)
         term[i] = greatest = 0.0;
     for (; i < count; i++) {
+        uint32_t choice = w->standing[e[i].point].choice,
+                 s = round > 1 ? share[i] : 0;
         double v;
 
-        passed += share[i];
-        v = passed * part - slope * (log[e[i].rank] - low);
+        s -= choice == INSIDE ? 0 : s * part >> 16;
+        s += choice == k ? gain : 0;
+        share[i] = (uint16_t)s;
+        passed += s;
+        v = (double)passed * unit - slope * gap[i];
         term[i] = v;
+        best = v > greatest ? i : best;
         greatest = v > greatest ? v : greatest;
     }
-    return greatest;
+    w->best_term[k] = greatest;
+    w->best_rank[k] = e[best].rank;
 }
 
-/* Bound the cell with the charges as they are and the tangent at `at`. */
+/* Bound the cell with the tangent at `at`, after a round of moving charges. */
 static double evaluate(ki_worker *w, const ki_cell *c, ki_extent x, double at,
-                       double target)
+                       uint32_t round, double target)
 {
     size_t dim = w->ranks->dim, before = 0;
     double slope = fmax(exp(at), DBL_MIN); /* any slope above 0 makes a bound */
@@ -111,8 +100,7 @@ static double evaluate(ki_worker *w, const ki_cell *c, ki_extent x, double at,
     bound = (double)c->inside / (double)w->ranks->n + margin -
             slope * (1.0 + x.log_low - touch);
     for (size_t k = 0; k < dim; k++) {
-        w->best_term[k] =
-            walk_closed(w, c, k, w->term + before, w->share + before, slope);
+        walk(w, c, k, before, round, slope);
         bound += w->best_term[k];
         before += c->end[k] - c->begin[k];
     }
@@ -143,16 +131,13 @@ double ki_bound_closed(ki_worker *w, const ki_cell *c, double target)
     greatest = fmin(most - target, x.volume_high);
     at = x.log_low;
     if (greatest > x.volume_low) at += 0.65 * (log(greatest) - x.log_low);
-    charge(w, c);
-    bound = evaluate(w, c, x, at, target);
-    for (int round = 1; bound >= target && ki_round_pays(w, round, bound - target);
-         round++) {
-        double step = 1.0 / (round + 1);
-
-        ki_find_best(w, c);
-        at += step * (log_of_best(w) - at);
-        recharge(w, c, step);
-        bound = fmin(bound, evaluate(w, c, x, at, target));
+    measure(w, c);
+    bound = evaluate(w, c, x, at, 1, target);
+    for (uint32_t round = 1;
+         bound >= target && ki_round_pays(w, round, bound - target); round++) {
+        at += (log_of_best(w) - at) / (round + 1);
+        choose_outside(w, c);
+        bound = fmin(bound, evaluate(w, c, x, at, round + 1, target));
     }
     return bound;
 }

@@ -4,68 +4,81 @@
 
 /* The bound for open boxes; star_bound.c has the mathematics. */
 
+/* A whole weight, in the units of a point's choice. */
+enum { WHOLE = 256 };
+
 /* What the weights bring as a constant: sum w (axes where it is open - 1). */
 static double constant_of(const ki_worker *w, const ki_cell *c)
 {
     const uint32_t *live = w->live + c->live;
-    double constant = 0.0;
+    uint64_t constant = 0;
+
+    for (size_t i = 0; i < c->lives; i++) {
+        const ki_standing *s = &w->standing[live[i]];
+
+        constant += (uint64_t)s->choice * (s->opens - 1);
+    }
+    return (double)constant / WHOLE;
+}
+
+/* How far each entry is from the upper end, and each point up its ranges. */
+static void measure(ki_worker *w, const ki_cell *c)
+{
+    double *gap = w->gap;
 
     for (size_t i = 0; i < c->lives; i++)
-        constant += w->weight[live[i]] * (double)(w->opens[live[i]] - 1);
-    return constant;
+        w->standing[w->live[c->live + i]].reach = 0.0f;
+    for (size_t k = 0; k < w->ranks->dim; k++) {
+        const double *log = w->ranks->axis[k].log;
+        double high = log[c->high[k]], inverse = ki_inverse_width(w, c, k);
+        ki_span open = ki_open_entries(w, c, k);
+        size_t pillars = 0;
+
+        for (size_t i = open.begin; i < open.end; i++) {
+            ki_standing *s = &w->standing[w->entry[i].point];
+
+            *gap = high - log[w->entry[i].rank];
+            s->reach += (float)(1.0 - *gap++ * inverse);
+            pillars += s->opens > 1;
+        }
+        gap += c->end[k] - open.end + 1;
+        w->pillars[k] = pillars;
+    }
 }
 
 /* The first weights: a point counts when on the whole it stands low in its ranges,
  * since then most corners have it inside. */
 static void weigh(ki_worker *w, const ki_cell *c)
 {
-    const uint32_t *live = w->live + c->live;
-
-    for (size_t i = 0; i < c->lives; i++)
-        w->reach[live[i]] = 0.0;
-    for (size_t k = 0; k < w->ranks->dim; k++) {
-        ki_scale s = ki_axis_scale(w, c, k);
-        ki_span open = ki_open_entries(w, c, k);
-        size_t pillars = 0;
-
-        for (size_t i = open.begin; i < open.end; i++) {
-            ki_entry e = w->entry[i];
-
-            w->reach[e.point] += (s.log[e.rank] - s.low) * s.inverse;
-            pillars += w->opens[e.point] > 1;
-        }
-        w->pillars[k] = pillars;
-    }
     for (size_t i = 0; i < c->lives; i++) {
-        uint32_t p = live[i];
+        ki_standing *s = &w->standing[w->live[c->live + i]];
 
-        w->weight[p] = w->opens[p] == 1 || w->reach[p] < 1.0 ? 1.0 : 0.0;
+        s->choice = s->opens == 1 || s->reach < 1.0f ? WHOLE : 0;
     }
 }
 
 /* Move the weights a step towards what is exact at the best corner: 1 for a point
  * that is inside there, 0 for one that is outside along two axes or more. */
-static void reweigh(ki_worker *w, const ki_cell *c, double step)
+static void reweigh(ki_worker *w, const ki_cell *c, uint32_t round)
 {
     const uint32_t *live = w->live + c->live;
 
     for (size_t i = 0; i < c->lives; i++)
-        w->reach[live[i]] = 0.0;
+        w->standing[live[i]].reach = 0.0f;
     for (size_t k = 0; k < w->ranks->dim; k++) {
         ki_span open = ki_open_entries(w, c, k);
 
         /* From the upper end: those that are outside along k. */
         for (size_t i = open.end;
              i-- > open.begin && w->entry[i].rank >= w->best_rank[k];)
-            w->reach[w->entry[i].point] += 1.0;
+            w->standing[w->entry[i].point].reach += 1.0f;
     }
     for (size_t i = 0; i < c->lives; i++) {
-        uint32_t p = live[i];
-        double goal = w->reach[p] == 0.0 ? 1.0 : 0.0;
+        ki_standing *s = &w->standing[live[i]];
+        int goal = s->reach == 0.0f ? WHOLE : 0, choice = (int)s->choice;
 
-        if (w->opens[p] > 1 && w->reach[p] != 1.0)
-            w->weight[p] =
-                rint((w->weight[p] + step * (goal - w->weight[p])) * 256.0) / 256.0;
+        if (s->opens > 1 && s->reach != 1.0f)
+            s->choice = (uint32_t)(choice + (goal - choice) / (int)(round + 1));
     }
 }
 
@@ -85,31 +98,34 @@ static double chord_slope(ki_extent x, double least, size_t dim)
     return (x.volume_high - low) / width * safe;
 }
 
-/* One walk along the list of axis k: terms, and the least. */
-static double walk_open(ki_worker *w, const ki_cell *c, size_t k, double *term,
-                        double slope)
+/* One walk along the list of axis k, whose gaps and terms begin at `at`: the terms,
+ * and the least of them. */
+static void walk(ki_worker *w, const ki_cell *c, size_t k, size_t at, double slope)
 {
-    const double *log = w->ranks->axis[k].log;
-    double high = log[c->high[k]], share = 1.0 / (double)w->ranks->n;
-    double passed = 0.0, least = HUGE_VAL;
     const ki_entry *e = w->entry + c->begin[k];
-    size_t count = c->end[k] - c->begin[k], i;
+    const double *gap = w->gap + at;
+    double *term = w->term + at, least = HUGE_VAL, last;
+    double unit = 1.0 / ((double)WHOLE * (double)w->ranks->n);
+    size_t count = c->end[k] - c->begin[k], i, best = 0;
     size_t end = ki_open_entries(w, c, k).end - c->begin[k];
+    int64_t passed = 0;
 
     for (i = 0; i < end; i++) {
-        double v = slope * (high - log[e[i].rank]) + passed * share;
+        double v = slope * gap[i] + (double)passed * unit;
 
         term[i] = v;
+        best = v < least ? i : best;
         least = v < least ? v : least;
-        passed += w->weight[e[i].point];
+        passed += w->standing[e[i].point].choice;
     }
+    last = (double)passed * unit;
     for (; i < count; i++)
-        term[i] = passed * share;
+        term[i] = last;
     /* One more: at `high` itself, if a point is there or it is 1. */
-    term[count] = count > end || c->high[k] == w->ranks->axis[k].top
-                      ? passed * share
-                      : HUGE_VAL;
-    return fmin(least, term[count]);
+    term[count] =
+        count > end || c->high[k] == w->ranks->axis[k].top ? last : HUGE_VAL;
+    w->best_term[k] = fmin(least, term[count]);
+    w->best_rank[k] = term[count] < least ? c->high[k] : e[best].rank;
 }
 
 /* Bound the cell with the weights as they are. */
@@ -120,12 +136,12 @@ static double evaluate(ki_worker *w, const ki_cell *c, ki_extent x, double slope
     double margin = ki_bound_pad(dim, slope * x.logs);
     double bound = x.volume_high + margin -
                    ((double)c->inside - constant_of(w, c)) / (double)w->ranks->n;
-    double *term = w->term;
+    size_t at = 0;
 
     for (size_t k = 0; k < dim; k++) {
-        w->best_term[k] = walk_open(w, c, k, term, slope);
+        walk(w, c, k, at, slope);
         bound -= w->best_term[k];
-        term += c->end[k] - c->begin[k] + 1;
+        at += c->end[k] - c->begin[k] + 1;
     }
     if (bound >= target) ki_tighten(w, c, bound - target + margin, -1.0);
     return bound;
@@ -141,12 +157,12 @@ double ki_bound_open(ki_worker *w, const ki_cell *c, double target)
     if (bound < target) return bound;
     /* A corner above the target has a volume above target + inside. */
     slope = chord_slope(x, (target + inside) * (1.0 - 0x1p-50), dim);
+    measure(w, c);
     weigh(w, c);
     bound = evaluate(w, c, x, slope, target);
-    for (int round = 1; bound >= target && ki_round_pays(w, round, bound - target);
-         round++) {
-        ki_find_best(w, c);
-        reweigh(w, c, 1.0 / (round + 1));
+    for (uint32_t round = 1;
+         bound >= target && ki_round_pays(w, round, bound - target); round++) {
+        reweigh(w, c, round);
         bound = fmin(bound, evaluate(w, c, x, slope, target));
     }
     return bound;

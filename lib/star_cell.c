@@ -30,13 +30,15 @@ static bool went(ki_worker *w, uint32_t change)
 
 static bool go_out(ki_worker *w, uint32_t point)
 {
-    w->outs[point]++;
+    w->standing[point].outs++;
     return went(w, point | OUT);
 }
 
 static bool go_in(ki_worker *w, ki_cell *c, uint32_t point)
 {
-    if (--w->opens[point] == 0 && w->outs[point] == 0) c->inside++;
+    ki_standing *s = &w->standing[point];
+
+    if (--s->opens == 0 && s->outs == 0) c->inside++;
     return went(w, point);
 }
 
@@ -53,6 +55,7 @@ static bool lower_high(ki_worker *w, ki_cell *c, size_t k, uint32_t high)
     if (shift > 0)
         for (size_t i = end; i > begin && e[i - 1].rank == high; i--)
             if (!go_out(w, e[i - 1].point)) return false;
+    c->stale = true;
     c->end[k] = end;
     c->high[k] = high;
     return true;
@@ -99,11 +102,11 @@ static bool copy_lists(ki_worker *w, ki_cell *c)
         c->begin[k] = (size_t)(to - w->entry);
         for (; e < own; e++) {
             *to = *e;
-            to += w->outs[e->point] == 0;
+            to += w->standing[e->point].outs == 0;
         }
         for (; e < end; e++) {
             *to = *e;
-            to += w->outs[e->point] == 1;
+            to += w->standing[e->point].outs == 1;
         }
         c->end[k] = (size_t)(to - w->entry);
     }
@@ -121,7 +124,7 @@ static bool copy_live(ki_worker *w, ki_cell *c, size_t at)
     to = w->live + at;
     for (const uint32_t *p = w->live + c->live, *end = p + c->lives; p < end; p++) {
         *to = *p;
-        to += w->outs[*p] == 0 && w->opens[*p] > 0;
+        to += w->standing[*p].outs == 0 && w->standing[*p].opens > 0;
     }
     c->live = at;
     c->lives = (size_t)(to - (w->live + at));
@@ -137,21 +140,43 @@ static size_t live_place(const ki_worker *w, const ki_cell *c)
     return parent != NULL ? parent->live + parent->lives : 0;
 }
 
+/* Make the lists and the live points hold what they should. */
+static bool compact(ki_worker *w, ki_cell *c)
+{
+    if (c->compact == w->logged) return true;
+    if (c->stale && !copy_lists(w, c)) return false;
+    if (!copy_live(w, c, live_place(w, c))) return false;
+    c->stale = false;
+    c->compact = w->logged;
+    return true;
+}
+
 bool ki_cell_narrow(ki_worker *w, ki_cell *c)
 {
-    size_t before = w->logged;
-    bool went_out = false;
-
     for (size_t k = 0; k < w->ranks->dim; k++) {
         if (w->new_high[k] < c->high[k] && !lower_high(w, c, k, w->new_high[k]))
             return false;
         if (w->new_low[k] > c->low[k] && !raise_low(w, c, k, w->new_low[k]))
             return false;
     }
-    for (size_t i = before; i < w->logged && !went_out; i++)
-        went_out = (w->log[i] & OUT) != 0;
-    if (went_out && !copy_lists(w, c)) return false;
-    return w->logged == before || copy_live(w, c, live_place(w, c));
+    return true;
+}
+
+/* Drop from both ends of the list of axis k what is out along another axis.  Own:
+ * how often a point that can still be the end of a side is out. */
+static void trim(const ki_worker *w, ki_cell *c, size_t k)
+{
+    const ki_entry *e = w->entry;
+    const ki_standing *s = w->standing;
+    size_t begin = c->begin[k], end = c->end[k];
+    uint32_t last = w->ranks->shift > 0 ? c->high[k] : UINT32_MAX;
+
+    while (begin < end && s[e[begin].point].outs != (e[begin].rank == last))
+        begin++;
+    while (begin < end && s[e[end - 1].point].outs != (e[end - 1].rank == last))
+        end--;
+    c->begin[k] = begin;
+    c->end[k] = end;
 }
 
 bool ki_cell_settle(ki_worker *w, ki_cell *c, bool *empty)
@@ -162,11 +187,14 @@ bool ki_cell_settle(ki_worker *w, ki_cell *c, bool *empty)
     while (changed) {
         changed = false;
         for (size_t k = 0; k < w->ranks->dim; k++) {
-            const ki_entry *first = w->entry + c->begin[k],
-                           *end = w->entry + c->end[k];
             /* An open box may reach to 1 without a point there. */
             bool to_one =
                 w->ranks->shift > 0 && c->high[k] == w->ranks->axis[k].top;
+
+            if (c->stale) trim(w, c, k);
+
+            const ki_entry *first = w->entry + c->begin[k],
+                           *end = w->entry + c->end[k];
 
             *empty = first == end && !to_one;
             if (*empty) return true;
@@ -176,7 +204,7 @@ bool ki_cell_settle(ki_worker *w, ki_cell *c, bool *empty)
         }
         if (changed && !ki_cell_narrow(w, c)) return false;
     }
-    return true;
+    return compact(w, c);
 }
 
 void ki_cell_leave(ki_worker *w, const ki_cell *c)
@@ -185,9 +213,9 @@ void ki_cell_leave(ki_worker *w, const ki_cell *c)
         uint32_t change = w->log[--w->logged];
 
         if (change & OUT)
-            w->outs[change & ~OUT]--;
+            w->standing[change & ~OUT].outs--;
         else
-            w->opens[change]++;
+            w->standing[change].opens++;
     }
 }
 
@@ -230,7 +258,8 @@ ki_cell *ki_cell_enter(ki_worker *w, size_t depth)
     for (size_t k = 0; k < dim; k++)
         if (from->end[k] > c->free_entry) c->free_entry = from->end[k];
     if (from->free_entry > c->free_entry) c->free_entry = from->free_entry;
-    c->undo = w->logged;
+    c->undo = c->compact = w->logged;
+    c->stale = false;
     c->parts = 0;
     return c;
 }
@@ -253,8 +282,8 @@ static bool enter_root(ki_worker *w)
         c->low[k] = 1;
         c->high[k] = r->axis[k].top;
         for (size_t i = 0; i < r->n; i++) {
-            w->outs[i] += rank[i] + r->shift > c->high[k];
-            w->opens[i] +=
+            w->standing[i].outs += rank[i] + r->shift > c->high[k];
+            w->standing[i].opens +=
                 rank[i] + r->shift > 1 && rank[i] + r->shift <= c->high[k];
         }
     }
@@ -264,16 +293,17 @@ static bool enter_root(ki_worker *w)
             uint32_t i = r->order[k * r->n + j], rank = r->rank[k * r->n + i];
 
             w->entry[at] = (ki_entry){i, rank};
-            at += rank > 0 && w->outs[i] == (rank + r->shift > c->high[k]);
+            at += rank > 0 && w->standing[i].outs == (rank + r->shift > c->high[k]);
         }
         c->end[k] = at;
     }
-    c->live = c->lives = c->inside = c->undo = 0;
+    c->live = c->lives = c->inside = c->undo = c->compact = 0;
+    c->stale = false;
     c->free_entry = at;
     c->parts = 0;
     for (size_t i = 0; i < r->n; i++) {
-        if (w->outs[i] > 0) continue;
-        if (w->opens[i] > 0)
+        if (w->standing[i].outs > 0) continue;
+        if (w->standing[i].opens > 0)
             w->live[c->lives++] = (uint32_t)i;
         else
             c->inside++;
@@ -286,21 +316,16 @@ koksma_status ki_worker_begin(ki_worker *w, const ki_ranks *ranks, ki_best *best
     size_t n = ranks->n, dim = ranks->dim;
 
     *w = (ki_worker){.ranks = ranks, .best = best, .factor = 1.0};
-    w->outs = calloc(n, sizeof *w->outs);
-    w->opens = calloc(n, sizeof *w->opens);
-    w->axis_of = ki_alloc(n, sizeof *w->axis_of);
-    w->weight = ki_alloc(n, sizeof *w->weight);
-    w->reach = ki_alloc(n, sizeof *w->reach);
+    w->standing = calloc(n, sizeof *w->standing);
     w->new_low = ki_alloc(dim, sizeof *w->new_low);
     w->new_high = ki_alloc(dim, sizeof *w->new_high);
     w->best_term = ki_alloc(dim, sizeof *w->best_term);
     w->pillars = ki_alloc(dim, sizeof *w->pillars);
     w->best_rank = ki_alloc(dim, sizeof *w->best_rank);
     w->corner = ki_alloc(dim, sizeof *w->corner);
-    if (w->outs != NULL && w->opens != NULL && w->axis_of != NULL &&
-        w->weight != NULL && w->reach != NULL && w->new_low != NULL &&
-        w->new_high != NULL && w->best_term != NULL && w->pillars != NULL &&
-        w->best_rank != NULL && w->corner != NULL && enter_root(w))
+    if (w->standing != NULL && w->new_low != NULL && w->new_high != NULL &&
+        w->best_term != NULL && w->pillars != NULL && w->best_rank != NULL &&
+        w->corner != NULL && enter_root(w))
         return KOKSMA_OK;
     ki_worker_end(w);
     return KOKSMA_ENOMEM;
@@ -314,16 +339,13 @@ void ki_worker_end(ki_worker *w)
     free(w->entry);
     free(w->live);
     free(w->log);
-    free(w->outs);
-    free(w->opens);
-    free(w->axis_of);
-    free(w->weight);
-    free(w->reach);
+    free(w->standing);
     free(w->new_low);
     free(w->new_high);
     free(w->best_term);
     free(w->pillars);
     free(w->best_rank);
+    free(w->gap);
     free(w->term);
     free(w->share);
     free(w->corner);

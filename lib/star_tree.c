@@ -65,30 +65,30 @@ static void choose_split(ki_worker *w, ki_cell *c)
     c->middle = e < end ? e->rank : c->high[c->split];
 }
 
+/* Settle the cell; whether anything is left of it. */
+static bool settle(search *s, ki_cell *c)
+{
+    bool empty = false;
+
+    s->no_memory = !ki_cell_settle(s->worker, c, &empty);
+    return !s->no_memory && !empty;
+}
+
 /* Bound the cell, tighten it while that pays, and settle how to split it.
  * Returns whether there is anything left to split. */
 static bool examine(search *s, ki_cell *c)
 {
     ki_worker *w = s->worker;
+    size_t before;
 
-    for (;;) {
-        size_t before;
-        bool empty;
-
-        s->no_memory = !ki_cell_settle(w, c, &empty);
-        if (s->no_memory || empty || is_corner(w, c)) return false;
+    if (!settle(s, c) || is_corner(w, c)) return false;
+    do {
         before = entries(w, c);
         c->bound = ki_cell_bound(w, c, target(w));
         if (c->bound < target(w)) return false;
         s->no_memory = c->bound == HUGE_VAL || !ki_cell_narrow(w, c);
-        if (s->no_memory) return false;
-        if ((double)entries(w, c) > 0.95 * (double)before) break;
-    }
-
-    bool empty;
-
-    s->no_memory = !ki_cell_settle(w, c, &empty);
-    if (s->no_memory || empty || is_corner(w, c)) return false;
+        if (s->no_memory || !settle(s, c) || is_corner(w, c)) return false;
+    } while ((double)entries(w, c) <= 0.95 * (double)before);
     choose_split(w, c);
     return true;
 }

@@ -32,7 +32,8 @@ typedef struct ki_ranks {
     bool closed;
     uint32_t shift;
     ki_axis *axis;   /* dim */
-    uint32_t *rank;  /* rank[k*n + i]: of point i along axis k */
+    uint32_t *rank;  /* rank[k*n + i]: of point i along axis k; the points are
+                      * numbered so that neighbours mostly follow each other */
     uint32_t *order; /* order[k*n ...]: the points by rank along axis k */
     void *memory;    /* all of the above */
 } ki_ranks;
@@ -45,6 +46,14 @@ typedef struct ki_entry {
     uint32_t point, rank;
 } ki_entry;
 
+/* Where a point stands with respect to a cell, and what the bound wants to know of
+ * it; together, since whoever asks for one of these asks for all. */
+typedef struct ki_standing {
+    uint32_t outs, opens; /* axes along which it is out; open */
+    float reach;          /* how far up its open ranges it stands */
+    uint32_t choice;      /* its weight (open boxes) or axis (closed ones) */
+} ki_standing;
+
 /* A cell: all corners between two.  Relative to it a point is, along each axis,
  * in (inside whatever the corner), out, or open. */
 typedef struct ki_cell {
@@ -55,8 +64,10 @@ typedef struct ki_cell {
     size_t live, lives;   /* in the worker's live: points nowhere out and open
                            * along an axis at least */
     size_t inside;        /* points in along every axis */
-    size_t free_entry;    /* where in the entries the lists of its parts may go */
+    size_t free_entry;    /* where in the entries its own lists go */
     size_t undo;          /* length of the worker's log before this cell */
+    size_t compact;       /* and when its lists were last free of other points */
+    bool stale;           /* whether points went out since then */
     double bound;
     size_t split; /* the axis to split, at `middle` */
     uint32_t middle;
@@ -78,18 +89,17 @@ typedef struct ki_worker {
     uint32_t *log; /* points whose standing changed, to take it back */
     size_t logged, room_log;
 
-    uint32_t *outs, *opens; /* n: axes along which a point is out; open */
-    double *weight;         /* n: of a point in the relaxation of open boxes */
-    double *reach;          /* n: how far up the open ranges a point stands */
-    uint32_t *axis_of;      /* n: an axis that a point is charged to (closed) */
+    ki_standing *standing; /* n */
 
     uint32_t *new_low, *new_high; /* dim: the ranges wanted next */
     double *best_term;            /* dim */
     size_t *pillars;     /* dim: entries of points open along other axes too */
     uint32_t *best_rank; /* dim: where the bound finds the best corner */
-    double *term;        /* of each entry, and one more a list */
-    double *share;       /* what each entry is charged (closed) */
-    size_t room_terms, room_shares;
+    /* For each entry of the cell's lists, axis after axis, and one more an axis: */
+    double *gap;     /* how far its logarithm is from the end that has none */
+    uint16_t *share; /* what it is charged (closed boxes) */
+    double *term;    /* its term in the bound */
+    size_t room_gaps, room_shares, room_terms;
     double *corner; /* dim */
 
     double work;   /* list entries looked at */
@@ -102,7 +112,8 @@ void ki_worker_end(ki_worker *w);
 /* Make cell `depth` of the path a copy of the one before, and return it. */
 ki_cell *ki_cell_enter(ki_worker *w, size_t depth);
 
-/* Narrow the cell to [new_low, new_high].  Returns false without memory. */
+/* Narrow the cell to [new_low, new_high]; its lists keep points that went out until
+ * it is settled.  Returns false without memory. */
 bool ki_cell_narrow(ki_worker *w, ki_cell *c);
 
 /* Narrow the cell until the ends of every range are ranks that a corner which
@@ -136,14 +147,8 @@ typedef struct ki_span {
 
 ki_span ki_open_entries(const ki_worker *w, const ki_cell *c, size_t k);
 
-/* How far up the range of axis k a rank stands, from 0 to 1, by logarithms:
- * (log[rank] - low) * inverse. */
-typedef struct ki_scale {
-    const double *log;
-    double low, inverse;
-} ki_scale;
-
-ki_scale ki_axis_scale(const ki_worker *w, const ki_cell *c, size_t k);
+/* 1 over the length of the range of axis k, in logarithms; 0 if it has none. */
+double ki_inverse_width(const ki_worker *w, const ki_cell *c, size_t k);
 
 /* Keep of the new ranges what lies between the first and the last rank whose term
  * is within slack of the best: with any other, even the best of all other axes
@@ -152,10 +157,7 @@ void ki_tighten(ki_worker *w, const ki_cell *c, double slack, double side);
 
 /* Round `round` of adapting the weights to the corner that the last one found
  * best: whether it is worth its while. */
-bool ki_round_pays(const ki_worker *w, int round, double gap);
-
-/* Find the corner whose terms are best: best_rank. */
-void ki_find_best(ki_worker *w, const ki_cell *c);
+bool ki_round_pays(const ki_worker *w, uint32_t round, double gap);
 
 double ki_bound_open(ki_worker *w, const ki_cell *c, double target);
 double ki_bound_closed(ki_worker *w, const ki_cell *c, double target);
