@@ -124,7 +124,7 @@ static bool copy_live(ki_worker *w, ki_cell *c, size_t at)
     to = w->live + at;
     for (const uint32_t *p = w->live + c->live, *end = p + c->lives; p < end; p++) {
         *to = *p;
-        to += w->standing[*p].outs == 0 && w->standing[*p].opens > 0;
+        to += (w->standing[*p].outs == 0) & (w->standing[*p].opens > 0);
     }
     c->live = at;
     c->lives = (size_t)(to - (w->live + at));
