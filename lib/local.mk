@@ -11,11 +11,13 @@ noinst_LTLIBRARIES = %D%/libcore.la
   %D%/io.c %D%/io.h %D%/io_kernels.h %D%/io_about.c %D%/io_lines.c %D%/io_npy.c \
   %D%/io_number.c %D%/io_table.c %D%/io_text.c %D%/io_write.c \
   %D%/num.c %D%/num.h %D%/num_kernels.h %D%/num_student.c \
+  %D%/part.c %D%/part.h \
   %D%/points.c %D%/points.h \
   %D%/rng.c %D%/rng.h \
   %D%/star.c %D%/star.h %D%/star_kernels.h %D%/star_sweep.c \
   %D%/star_best.c %D%/star_bound.c %D%/star_bound_closed.c \
-  %D%/star_bound_open.c %D%/star_cell.c %D%/star_ranks.c %D%/star_tree.c \
+  %D%/star_bound_open.c %D%/star_cell.c %D%/star_dive.c %D%/star_ranks.c \
+  %D%/star_tree.c \
   %D%/star_tree_kernels.h
 %C%_libcore_la_CPPFLAGS = $(AM_CPPFLAGS) -I$(top_builddir)/%D%
 

@@ -34,6 +34,7 @@ static koksma_star_method choose(const koksma_star_opts *opts, koksma_points p)
     double corners = pow((double)p.n, (double)p.dim);
 
     if (opts->method != KOKSMA_STAR_AUTO) return opts->method;
+    if (opts->parts > 1) return KOKSMA_STAR_TREE;
     return p.dim == 1 || corners <= 0x1p20 ? KOKSMA_STAR_SWEEP : KOKSMA_STAR_TREE;
 }
 
@@ -46,6 +47,11 @@ static koksma_status check_opts(const koksma_star_opts *opts, koksma_points p,
     if (!(opts->tolerance >= 0.0))
         return ki_fail(err, KOKSMA_EINVAL, 0, "the tolerance is %g",
                        opts->tolerance);
+    if (opts->parts > 1 && (opts->part < 1 || opts->part > opts->parts))
+        return ki_fail(err, KOKSMA_EINVAL, 0, "there is no part %zu of %zu",
+                       opts->part, opts->parts);
+    if (opts->parts > 1 && opts->method == KOKSMA_STAR_SWEEP)
+        return ki_fail(err, KOKSMA_EINVAL, 0, "the sweep cannot be cut into parts");
     if (p.n >= (size_t)1 << 31)
         return ki_fail(err, KOKSMA_EINVAL, 0, "%zu points: 2^31 are too many", p.n);
     return KOKSMA_OK;

@@ -44,11 +44,14 @@ typedef struct koksma_star_result {
 typedef struct koksma_star_opts {
     koksma_star_method method;
     double
-        tolerance; /* the tree stops at upper <= (1 + tolerance) lower; 0: exact */
-    bool anytime;  /* the tree works towards that in stages, which costs up to
-                    * twice the time, but has an upper bound when it is stopped */
-    double work;   /* stop after about so many steps; 0: after KOKSMA_STAR_WORK for
-                    * the sweep, never for the tree */
+        tolerance;  /* the tree stops at upper <= (1 + tolerance) lower; 0: exact */
+    bool anytime;   /* the tree works towards that in stages, which costs up to
+                     * twice the time, but has an upper bound when it is stopped */
+    size_t threads; /* 0: one a processor (the tree) */
+    size_t part, parts; /* 1 <= part <= parts: do this share of the work (the tree);
+                         * parts 0 or 1: all of it */
+    double work; /* stop after about so many steps; 0: after KOKSMA_STAR_WORK for
+                  * the sweep, never for the tree */
     koksma_progress *progress; /* called a few times a second; NULL: never */
     void *state;               /* handed to progress */
 } koksma_star_opts;
@@ -58,7 +61,7 @@ typedef struct koksma_star_opts {
 
 #define KOKSMA_STAR_DEFAULTS                                                       \
     {                                                                              \
-        KOKSMA_STAR_AUTO, 0.0, false, 0.0, NULL, NULL                              \
+        KOKSMA_STAR_AUTO, 0.0, false, 0, 1, 1, 0.0, NULL, NULL                     \
     }
 
 /* Bound the star discrepancy of p.

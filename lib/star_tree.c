@@ -4,160 +4,51 @@
 #include "error.h"
 #include "star_tree_kernels.h"
 
-/* Depth first, the upper part of a cell first: large boxes hold the extremes. */
+/* The whole search: stages, each of which proves a bound; tasks, cells that the
+ * threads take one after the other; shares, every m-th task.
+ *
+ * An answer that was finished does not depend on the threads: whatever the order,
+ * all boxes are offered that may be the best or tie with it. */
 
 typedef struct search {
-    ki_worker *worker;
-    const koksma_star_opts *opts;
-    double upper; /* proven so far */
-    double work_before, next_report;
-    bool stopped, no_memory;
+    ki_tree tree;
+    ki_worker
+        *worker; /* two a thread, for open and closed boxes; all 0 until used */
+    size_t part, parts;
+    ki_tasks tasks;
+    uint32_t *low, *high; /* dim: of all the boxes of a kind */
 } search;
 
-static double target(const ki_worker *w) { return w->best->proven * w->factor; }
-
-/* Whether one corner is left; it is then offered. */
-static bool is_corner(ki_worker *w, const ki_cell *c)
+void ki_tree_report(ki_tree *t, double work)
 {
-    const ki_ranks *r = w->ranks;
+    const koksma_star_opts *opts = t->opts;
 
-    for (size_t k = 0; k < r->dim; k++)
-        if (c->low[k] != c->high[k]) return false;
-    for (size_t k = 0; k < r->dim; k++)
-        w->corner[k] = r->axis[k].value[c->low[k]];
-    ki_best_offer(w->best, w->corner, c->inside, r->closed);
-    return true;
+    t->work += work;
+    if ((opts->work > 0.0 && t->work > opts->work) ||
+        (opts->progress != NULL &&
+         opts->progress(opts->state, t->best->value.lower, t->upper, t->work) != 0))
+        ki_team_stop(t->team);
 }
 
-static size_t entries(const ki_worker *w, const ki_cell *c)
+void ki_tree_offer(ki_tree *t, const double *corner, size_t inside, bool closed)
 {
-    size_t sum = 0;
+    ki_team_lock(t->team);
 
-    for (size_t k = 0; k < w->ranks->dim; k++)
-        sum += c->end[k] - c->begin[k];
-    return sum;
-}
+    double before = t->best->proven;
 
-/* Split where most points are open along other axes too, over the longest range,
- * at the middle of the list. */
-static void choose_split(ki_worker *w, ki_cell *c)
-{
-    double best = -1.0;
-
-    for (size_t k = 0; k < w->ranks->dim; k++) {
-        const double *log = w->ranks->axis[k].log;
-        size_t count = c->end[k] - c->begin[k];
-        double weight = ((double)w->pillars[k] + 0.1 * (double)count) *
-                        (log[c->high[k]] - log[c->low[k]]);
-
-        if (c->low[k] == c->high[k] || weight <= best) continue;
-        best = weight;
-        c->split = k;
+    ki_best_offer(t->best, corner, inside, closed);
+    if (t->best->proven > before) {
+        ki_team_raise(t->team, t->best->proven);
+        ki_tree_report(t, 0.0);
     }
-
-    const ki_entry *e = w->entry + c->begin[c->split],
-                   *end = w->entry + c->end[c->split];
-
-    /* The upper part begins there, so it must not be `low`. */
-    e += (end - e) / 2;
-    while (e < end && e->rank == c->low[c->split])
-        e++;
-    c->middle = e < end ? e->rank : c->high[c->split];
-}
-
-/* Settle the cell; whether anything is left of it. */
-static bool settle(search *s, ki_cell *c)
-{
-    bool empty = false;
-
-    s->no_memory = !ki_cell_settle(s->worker, c, &empty);
-    return !s->no_memory && !empty;
-}
-
-/* Bound the cell, tighten it while that pays, and settle how to split it.
- * Returns whether there is anything left to split. */
-static bool examine(search *s, ki_cell *c)
-{
-    ki_worker *w = s->worker;
-    size_t before;
-
-    if (!settle(s, c) || is_corner(w, c)) return false;
-    do {
-        before = entries(w, c);
-        c->bound = ki_cell_bound(w, c, target(w));
-        if (c->bound < target(w)) return false;
-        s->no_memory = c->bound == HUGE_VAL || !ki_cell_narrow(w, c);
-        if (s->no_memory || !settle(s, c) || is_corner(w, c)) return false;
-    } while ((double)entries(w, c) <= 0.95 * (double)before);
-    choose_split(w, c);
-    return true;
-}
-
-static bool told_to_stop(search *s)
-{
-    const koksma_star_opts *opts = s->opts;
-    const ki_worker *w = s->worker;
-    double work = s->work_before + w->work;
-
-    if (work < s->next_report) return false;
-    s->next_report = work + 0x1p18;
-    return (opts->work > 0.0 && work > opts->work) ||
-           (opts->progress != NULL &&
-            opts->progress(opts->state, w->best->value.lower, s->upper, work) != 0);
-}
-
-/* Enter the next part of cell `depth`: its upper one, then its lower one. */
-static ki_cell *enter_part(search *s, size_t depth)
-{
-    ki_worker *w = s->worker;
-    ki_cell *c = ki_cell_enter(w, depth + 1), *whole;
-
-    s->no_memory = c == NULL;
-    if (c == NULL) return NULL;
-    whole = c - 1;
-    for (size_t k = 0; k < w->ranks->dim; k++) {
-        w->new_low[k] = whole->low[k];
-        w->new_high[k] = whole->high[k];
-    }
-    if (whole->parts++ == 0)
-        w->new_low[whole->split] = whole->middle;
-    else
-        w->new_high[whole->split] = whole->middle - 1;
-    s->no_memory = !ki_cell_narrow(w, c);
-    return s->no_memory ? NULL : c;
-}
-
-static void run(search *s)
-{
-    ki_worker *w = s->worker;
-    size_t depth = 0;
-
-    if (!examine(s, &w->cell[0])) return;
-    for (;;) {
-        ki_cell *c = &w->cell[depth];
-
-        if (c->parts == 2 || c->bound < target(w)) {
-            ki_cell_leave(w, c);
-            if (depth-- == 0) return;
-            continue;
-        }
-        s->stopped = told_to_stop(s);
-        if (s->stopped) return;
-        c = enter_part(s, depth);
-        if (c == NULL) return;
-        if (examine(s, c))
-            depth++;
-        else
-            ki_cell_leave(w, c);
-        if (s->no_memory) return;
-    }
+    ki_team_unlock(t->team);
 }
 
 /* Closed boxes with a side of length 0 have no volume, and no logarithm: the one
  * that matters along each axis holds the points at 0 there, and no more. */
-static void offer_flat_boxes(ki_best *b, double *corner)
+static void offer_flat_boxes(ki_tree *t, double *corner)
 {
-    koksma_points p = b->p;
+    koksma_points p = t->best->p;
 
     for (size_t k = 0; k < p.dim; k++) {
         size_t inside = 0;
@@ -172,85 +63,157 @@ static void offer_flat_boxes(ki_best *b, double *corner)
             for (size_t l = 0; l < p.dim; l++)
                 corner[l] = fmax(corner[l], x[l]);
         }
-        if (inside > 0) ki_best_offer(b, corner, inside, true);
+        if (inside > 0) ki_tree_offer(t, corner, inside, true);
     }
 }
 
-/* Whether every side of a box of this kind can have a length. */
-static bool has_volume(const ki_ranks *r)
+/* Thread `thread`'s worker for boxes of a kind; NULL without memory. */
+static ki_worker *worker_of(search *s, size_t thread, bool closed)
 {
-    for (size_t k = 0; k < r->dim; k++)
-        if (r->axis[k].top == 0) return false;
+    ki_worker *w = &s->worker[2 * thread + closed];
+
+    if (w->tree == NULL && ki_worker_begin(w, &s->tree, closed) != KOKSMA_OK) {
+        ki_team_lock(s->tree.team);
+        s->tree.no_memory = true;
+        ki_team_unlock(s->tree.team);
+        ki_team_stop(s->tree.team);
+        return NULL;
+    }
+    return w;
+}
+
+/* The ranges of all boxes of a kind; whether there are any with a volume. */
+static bool all_boxes(search *s, bool closed)
+{
+    const ki_ranks *r = &s->tree.ranks[closed];
+
+    for (size_t k = 0; k < r->dim; k++) {
+        s->low[k] = 1;
+        s->high[k] = r->axis[k].top;
+        if (s->high[k] == 0) return false;
+    }
     return true;
 }
 
-/* Search one kind of box for what is above factor * the incumbent. */
-static koksma_status search_kind(search *s, ki_best *b, const ki_ranks *ranks,
-                                 double factor)
+/* Cut the search into tasks: the cells that so many splits make of it. */
+static void make_tasks(search *s, size_t levels)
 {
-    ki_worker w;
+    s->tasks.count = 0;
+    /* Closed boxes first: of most sets they hold the extreme, and knowing it early
+     * prunes the other search. */
+    for (int closed = 1; closed >= 0; closed--) {
+        ki_worker *w = worker_of(s, 0, closed);
 
-    if (!has_volume(ranks)) return KOKSMA_OK;
-    if (ki_worker_begin(&w, ranks, b) != KOKSMA_OK) return KOKSMA_ENOMEM;
-    w.factor = factor;
-    s->worker = &w;
-    run(s);
-    s->work_before += w.work;
-    ki_worker_end(&w);
-    return s->no_memory ? KOKSMA_ENOMEM : KOKSMA_OK;
+        if (w == NULL) return;
+        if (all_boxes(s, closed)) ki_dive(w, s->low, s->high, levels, &s->tasks);
+    }
 }
 
-/* A stage: no box of either kind deviates by more than factor * the incumbent, as
- * it ends.  Closed boxes first: of most sets they hold the extreme, and knowing
- * it early prunes the other search. */
-static koksma_status search_stage(search *s, ki_best *b, const ki_ranks *open,
-                                  const ki_ranks *closed, double factor)
+/* A thread's work on a task of this share. */
+static void work_on(void *state, size_t thread, size_t number)
 {
-    koksma_status status = search_kind(s, b, closed, factor);
+    search *s = state;
+    size_t dim = s->tree.best->p.dim;
+    const uint32_t *task =
+        s->tasks.number + (s->part + number * s->parts) * (2 * dim + 1);
+    ki_worker *w = worker_of(s, thread, task[0] == 1);
 
-    if (status == KOKSMA_OK && !s->stopped)
-        status = search_kind(s, b, open, factor);
-    if (status == KOKSMA_OK && !s->stopped)
-        s->upper = fmin(s->upper, fmax(b->value.upper, factor * b->proven));
-    return status;
+    if (w != NULL) ki_dive(w, task + 1, task + 1 + dim, 0, NULL);
+}
+
+/* How many tasks there should be: shares of equal work take many, and must not
+ * depend on the threads. */
+static size_t enough_tasks(const search *s)
+{
+    size_t threads = ki_team_threads(s->tree.team);
+
+    if (s->parts > 1) return 128 * s->parts;
+    return threads > 1 ? 128 * threads : 1;
+}
+
+/* A stage: as it ends no box of this share deviates by more than factor * the
+ * incumbent. */
+static void search_stage(search *s, double factor)
+{
+    ki_tree *t = &s->tree;
+    size_t levels = 0, before;
+
+    if (ki_team_stopped(t->team)) return;
+    t->factor = factor;
+    make_tasks(s, levels);
+    do {
+        before = s->tasks.count;
+        if (before > 0 && before < enough_tasks(s)) make_tasks(s, levels += 3);
+    } while (s->tasks.count > before && !ki_team_stopped(t->team));
+    ki_team_run(t->team, (s->tasks.count + s->parts - 1 - s->part) / s->parts,
+                work_on, s);
+    if (ki_team_stopped(t->team)) return;
+    t->upper = fmin(t->upper, fmax(t->best->value.upper, factor * t->best->proven));
+    ki_tree_report(t, 0.0);
 }
 
 /* The stages make early bounds: each costs a part of the next. */
-static koksma_status search_all(search *s, ki_best *b, const ki_ranks *open,
-                                const ki_ranks *closed)
+static void search_all(search *s)
 {
     static const double stages[] = {1.0, 0.5, 0.25, 0.1, 0.05};
-    double tolerance = s->opts->tolerance;
-    koksma_status status = KOKSMA_OK;
+    const koksma_star_opts *opts = s->tree.opts;
 
-    for (size_t i = 0; i < sizeof stages / sizeof stages[0]; i++)
-        if (s->opts->anytime && stages[i] > tolerance && status == KOKSMA_OK &&
-            !s->stopped)
-            status = search_stage(s, b, open, closed, 1.0 + stages[i]);
-    if (status == KOKSMA_OK && !s->stopped)
-        status = search_stage(s, b, open, closed, 1.0 + tolerance);
-    return status;
+    if (opts->anytime)
+        for (size_t i = 0; i < sizeof stages / sizeof stages[0]; i++)
+            if (stages[i] > opts->tolerance) search_stage(s, 1.0 + stages[i]);
+    search_stage(s, 1.0 + opts->tolerance);
+}
+
+static koksma_status begin(search *s, ki_best *b, const koksma_star_opts *opts)
+{
+    size_t dim = b->p.dim;
+
+    *s = (search){.tree = {.opts = opts, .best = b, .upper = 1.0},
+                  .part = opts->parts > 1 ? opts->part - 1 : 0,
+                  .parts = opts->parts > 1 ? opts->parts : 1};
+    s->tree.team = ki_team_open(opts->threads);
+    if (s->tree.team == NULL) return KOKSMA_ENOMEM;
+    s->worker = calloc(2 * ki_team_threads(s->tree.team), sizeof *s->worker);
+    s->low = ki_alloc(dim, 2 * sizeof *s->low);
+    if (s->worker == NULL || s->low == NULL ||
+        ki_ranks_make(&s->tree.ranks[0], b->p, false) != KOKSMA_OK ||
+        ki_ranks_make(&s->tree.ranks[1], b->p, true) != KOKSMA_OK)
+        return KOKSMA_ENOMEM;
+    s->high = s->low + dim;
+    return KOKSMA_OK;
+}
+
+static void end(search *s)
+{
+    if (s->worker != NULL)
+        for (size_t i = 0; i < 2 * ki_team_threads(s->tree.team); i++)
+            ki_worker_end(&s->worker[i]);
+    ki_ranks_free(&s->tree.ranks[0]);
+    ki_ranks_free(&s->tree.ranks[1]);
+    free(s->worker);
+    free(s->low);
+    free(s->tasks.number);
+    ki_team_close(s->tree.team);
 }
 
 koksma_status ki_star_tree(ki_best *b, const koksma_star_opts *opts, double *upper,
                            double *work, bool *stopped)
 {
-    search s = {.opts = opts, .upper = 1.0, .next_report = 0x1p18};
     double *corner = ki_alloc(b->p.dim, sizeof *corner);
-    ki_ranks open = {0}, closed = {0};
-    koksma_status status = corner != NULL ? KOKSMA_OK : KOKSMA_ENOMEM;
+    search s = {0};
+    koksma_status status = corner != NULL ? begin(&s, b, opts) : KOKSMA_ENOMEM;
 
-    if (status == KOKSMA_OK) status = ki_ranks_make(&open, b->p, false);
-    if (status == KOKSMA_OK) status = ki_ranks_make(&closed, b->p, true);
     if (status == KOKSMA_OK) {
-        offer_flat_boxes(b, corner);
-        status = search_all(&s, b, &open, &closed);
+        offer_flat_boxes(&s.tree, corner);
+        search_all(&s);
+        if (s.tree.no_memory) status = KOKSMA_ENOMEM;
+        for (size_t i = 0; i < 2 * ki_team_threads(s.tree.team); i++)
+            s.tree.work += s.worker[i].work;
+        *upper = s.tree.upper;
+        *work = s.tree.work;
+        *stopped = ki_team_stopped(s.tree.team);
     }
-    ki_ranks_free(&open);
-    ki_ranks_free(&closed);
+    end(&s);
     free(corner);
-    *upper = s.upper;
-    *work = s.work_before;
-    *stopped = s.stopped;
     return status;
 }

@@ -5,6 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "part.h"
 #include "star_kernels.h"
 
 /* Private: the branch and bound for the star discrepancy, in these files:
@@ -13,7 +14,8 @@
  *   star_cell.c    cells of corners, and the points that matter in each
  *   star_bound.c   what a cell can hold at most, and why; then, for either kind of
  *                  box, star_bound_open.c and star_bound_closed.c
- *   star_tree.c    the search
+ *   star_dive.c    the search of one cell, depth first
+ *   star_tree.c    the search of all: stages, threads, shares
  *
  * Open and closed boxes are two problems with one incumbent.  In either a corner
  * z is a rank an axis, and a point of rank r is inside along that axis when
@@ -74,11 +76,31 @@ typedef struct ki_cell {
     int parts; /* parts visited */
 } ki_cell;
 
+/* What all threads share.  The team's lock guards what changes, the incumbent
+ * included; the team's peak is the incumbent's proven value. */
+typedef struct ki_tree {
+    const koksma_star_opts *opts;
+    ki_team *team;
+    ki_ranks ranks[2]; /* of open and of closed boxes */
+    double factor;     /* cells below factor * peak are of no interest; 1: exact */
+    ki_best *best;
+    double upper; /* proven so far */
+    double work;  /* list entries looked at */
+    bool no_memory;
+} ki_tree;
+
+/* Cells to search, each in 2 * dim + 1 numbers: whether its boxes are closed, the
+ * low ranks, the high ranks. */
+typedef struct ki_tasks {
+    uint32_t *number;
+    size_t count, room;
+} ki_tasks;
+
 /* What one thread works with: the path of cells that it is in, and where each
  * point stands with respect to the last of them. */
 typedef struct ki_worker {
+    ki_tree *tree;
     const ki_ranks *ranks;
-    ki_best *best;
 
     ki_cell *cell; /* the path */
     size_t cells, room_cells;
@@ -102,12 +124,23 @@ typedef struct ki_worker {
     size_t room_gaps, room_shares, room_terms;
     double *corner; /* dim */
 
-    double work;   /* list entries looked at */
-    double factor; /* cells below factor * lower are of no interest; 1: exact */
+    double work; /* list entries looked at since the last report */
 } ki_worker;
 
-koksma_status ki_worker_begin(ki_worker *w, const ki_ranks *ranks, ki_best *best);
-void ki_worker_end(ki_worker *w);
+koksma_status ki_worker_begin(ki_worker *w, ki_tree *tree, bool closed);
+void ki_worker_end(ki_worker *w); /* also of one that is all 0 */
+
+/* Search the cell from low to high.  With tasks, cells `levels` parts deeper are
+ * added to them instead.  Without memory the tree says so, and the team stops. */
+void ki_dive(ki_worker *w, const uint32_t *low, const uint32_t *high, size_t levels,
+             ki_tasks *tasks);
+
+/* Offer the box at corner to the incumbent. */
+void ki_tree_offer(ki_tree *t, const double *corner, size_t inside, bool closed);
+
+/* Add `work` to that of the tree, tell the caller, and ask whether to go on; with
+ * the lock held. */
+void ki_tree_report(ki_tree *t, double work);
 
 /* Make cell `depth` of the path a copy of the one before, and return it. */
 ki_cell *ki_cell_enter(ki_worker *w, size_t depth);

@@ -1,0 +1,188 @@
+#include <math.h>
+#include <string.h>
+
+#include "error.h"
+#include "star_tree_kernels.h"
+
+/* Depth first, the upper part of a cell first: large boxes hold the extremes. */
+
+static double target(const ki_worker *w)
+{
+    return w->tree->factor * ki_team_peak(w->tree->team);
+}
+
+static void give_up(ki_worker *w)
+{
+    ki_team_lock(w->tree->team);
+    w->tree->no_memory = true;
+    ki_team_unlock(w->tree->team);
+    ki_team_stop(w->tree->team);
+}
+
+/* Whether one corner is left; it is then offered. */
+static bool is_corner(ki_worker *w, const ki_cell *c)
+{
+    const ki_ranks *r = w->ranks;
+
+    for (size_t k = 0; k < r->dim; k++)
+        if (c->low[k] != c->high[k]) return false;
+    for (size_t k = 0; k < r->dim; k++)
+        w->corner[k] = r->axis[k].value[c->low[k]];
+    ki_tree_offer(w->tree, w->corner, c->inside, r->closed);
+    return true;
+}
+
+static size_t entries(const ki_worker *w, const ki_cell *c)
+{
+    size_t sum = 0;
+
+    for (size_t k = 0; k < w->ranks->dim; k++)
+        sum += c->end[k] - c->begin[k];
+    return sum;
+}
+
+/* Split where most points are open along other axes too, over the longest range,
+ * at the middle of the list. */
+static void choose_split(ki_worker *w, ki_cell *c)
+{
+    double best = -1.0;
+
+    for (size_t k = 0; k < w->ranks->dim; k++) {
+        const double *log = w->ranks->axis[k].log;
+        size_t count = c->end[k] - c->begin[k];
+        double weight = ((double)w->pillars[k] + 0.1 * (double)count) *
+                        (log[c->high[k]] - log[c->low[k]]);
+
+        if (c->low[k] == c->high[k] || weight <= best) continue;
+        best = weight;
+        c->split = k;
+    }
+
+    const ki_entry *e = w->entry + c->begin[c->split],
+                   *end = w->entry + c->end[c->split];
+
+    /* The upper part begins there, so it must not be `low`. */
+    e += (end - e) / 2;
+    while (e < end && e->rank == c->low[c->split])
+        e++;
+    c->middle = e < end ? e->rank : c->high[c->split];
+}
+
+/* Settle the cell; whether there is more of it than a corner. */
+static bool settle(ki_worker *w, ki_cell *c)
+{
+    bool empty = false;
+
+    if (!ki_cell_settle(w, c, &empty)) {
+        give_up(w);
+        return false;
+    }
+    return !empty && !is_corner(w, c);
+}
+
+/* Bound the cell, tighten it while that pays, and settle how to split it.
+ * Returns whether there is anything left to split. */
+static bool examine(ki_worker *w, ki_cell *c)
+{
+    size_t before;
+
+    if (!settle(w, c)) return false;
+    do {
+        before = entries(w, c);
+        c->bound = ki_cell_bound(w, c, target(w));
+        if (c->bound < target(w)) return false;
+        if (c->bound == HUGE_VAL || !ki_cell_narrow(w, c)) {
+            give_up(w);
+            return false;
+        }
+        if (!settle(w, c)) return false;
+    } while ((double)entries(w, c) <= 0.95 * (double)before);
+    choose_split(w, c);
+    return true;
+}
+
+static bool told_to_stop(ki_worker *w)
+{
+    if (w->work >= 0x1p18) {
+        ki_team_lock(w->tree->team);
+        ki_tree_report(w->tree, w->work);
+        ki_team_unlock(w->tree->team);
+        w->work = 0.0;
+    }
+    return ki_team_stopped(w->tree->team);
+}
+
+/* Whether both parts of a cell were visited, or what is left does not matter. */
+static bool is_done(const ki_worker *w, const ki_cell *c)
+{
+    return c->parts == 2 || c->bound < target(w);
+}
+
+/* Enter, below cell `depth` of the path, the cell of new_low and new_high. */
+static bool enter(ki_worker *w, size_t depth)
+{
+    ki_cell *c = ki_cell_enter(w, depth + 1);
+
+    if (c != NULL && ki_cell_narrow(w, c)) return true;
+    give_up(w);
+    return false;
+}
+
+/* Enter the next part of cell `depth`: its upper one, then its lower one. */
+static bool enter_part(ki_worker *w, size_t depth)
+{
+    ki_cell *whole = &w->cell[depth];
+
+    memcpy(w->new_low, whole->low, w->ranks->dim * sizeof *whole->low);
+    memcpy(w->new_high, whole->high, w->ranks->dim * sizeof *whole->high);
+    if (whole->parts++ == 0)
+        w->new_low[whole->split] = whole->middle;
+    else
+        w->new_high[whole->split] = whole->middle - 1;
+    return enter(w, depth);
+}
+
+static bool add_task(ki_tasks *tasks, const ki_worker *w, const ki_cell *c)
+{
+    size_t dim = w->ranks->dim, size = 2 * dim + 1;
+    uint32_t *to;
+
+    if (ki_grow((void **)&tasks->number, &tasks->room, (tasks->count + 1) * size,
+                sizeof *tasks->number) != 0)
+        return false;
+    to = tasks->number + tasks->count++ * size;
+    *to++ = w->ranks->closed;
+    memcpy(to, c->low, dim * sizeof *to);
+    memcpy(to + dim, c->high, dim * sizeof *to);
+    return true;
+}
+
+/* Search the cell `depth` of the path; say whether it is to be split. */
+static bool open_up(ki_worker *w, size_t depth, size_t limit, ki_tasks *tasks)
+{
+    ki_cell *c = &w->cell[depth];
+
+    if (!examine(w, c)) return false;
+    if (tasks == NULL || depth < limit) return true;
+    if (!add_task(tasks, w, c)) give_up(w);
+    return false;
+}
+
+void ki_dive(ki_worker *w, const uint32_t *low, const uint32_t *high, size_t levels,
+             ki_tasks *tasks)
+{
+    size_t depth =
+        0; /* of the cell whose parts are visited; 0: none, but the root */
+
+    memcpy(w->new_low, low, w->ranks->dim * sizeof *low);
+    memcpy(w->new_high, high, w->ranks->dim * sizeof *high);
+    if (!enter(w, 0)) return;
+    do {
+        if (open_up(w, depth + 1, levels + 1, tasks))
+            depth++;
+        else
+            ki_cell_leave(w, &w->cell[depth + 1]);
+        while (depth > 0 && is_done(w, &w->cell[depth]))
+            ki_cell_leave(w, &w->cell[depth--]);
+    } while (depth > 0 && !told_to_stop(w) && enter_part(w, depth));
+}
