@@ -7,10 +7,15 @@
 #include "cli.h"
 #include "star.h"
 
+enum { PART = CLI_LONG, TRACE };
+
 static const cli_option options[] = {
     {'m', "method", "METHOD", "auto, sweep or tree (default auto)"},
     {'e', "tolerance", "E", "stop at upper <= (1+E) lower (default 0: exact)"},
     {'t', "time", "SECONDS", "stop then, with the interval so far"},
+    {'j', "threads", "THREADS", "how many threads (default 0: one a processor)"},
+    {PART, "part", "I/M", "do the I-th of M shares of the work"},
+    {TRACE, "trace", NULL, "write a row at every improvement of the interval"},
     {'w', "witness", NULL, "write the box that proves the lower bound"},
     {'p', "progress", NULL, "a live line on standard error"},
     {'v', "verbose", NULL, "say on standard error what was done"},
@@ -24,26 +29,64 @@ static const cli_tool tool = {"koksma-star", "[FILE]...",
 typedef struct star_options {
     koksma_star_opts opts;
     cli_watch watch;
-    bool witness, verbose;
+    bool witness, verbose, trace;
+    const cli_input *input;
+    koksma_interval traced; /* what the last row of the trace said */
 } star_options;
 
-static void print_header(bool several, bool witness)
+static void print_header(const star_options *o)
 {
+    const char *input = o->input->several ? "input\t" : "";
+
     if (cli_quiet()) return;
-    printf("# %sn\tdim\tlower\tupper%s\n", several ? "input\t" : "",
-           witness ? "\tbox\tinside\tcorner" : "");
+    if (o->trace)
+        printf("# %sseconds\tsteps\tlower\tupper\n", input);
+    else
+        printf("# %sn\tdim\t%s%s\n", input,
+               o->opts.parts > 1 ? "part_lower\tpart_upper" : "lower\tupper",
+               o->witness ? "\tbox\tinside\tcorner" : "");
 }
 
-static void print_row(const cli_input *input, const koksma_set *set,
-                      const koksma_star_result *r, bool witness)
+static void print_label(const cli_input *input)
 {
     if (input->several) printf("%s\t", input->label);
+}
+
+static void print_interval(koksma_interval v)
+{
+    putchar('\t');
+    cli_number(v.lower);
+    putchar('\t');
+    cli_number(v.upper);
+}
+
+/* A row of the trace, if the interval has improved. */
+static void trace(star_options *o, koksma_interval v, double work)
+{
+    if (v.lower == o->traced.lower && v.upper == o->traced.upper) return;
+    o->traced = v;
+    print_label(o->input);
+    printf("%.3f\t%.0f", cli_seconds(&o->watch), work);
+    print_interval(v);
+    putchar('\n');
+    fflush(stdout);
+}
+
+static int on_progress(void *state, double lower, double upper, double work)
+{
+    star_options *o = state;
+
+    if (o->trace) trace(o, (koksma_interval){lower, upper}, work);
+    return cli_watch_progress(&o->watch, lower, upper, work);
+}
+
+static void print_row(const star_options *o, const koksma_set *set,
+                      const koksma_star_result *r)
+{
+    print_label(o->input);
     printf("%zu\t%zu", set->n, set->dim);
-    putchar('\t');
-    cli_number(r->value.lower);
-    putchar('\t');
-    cli_number(r->value.upper);
-    if (witness) {
+    print_interval(r->value);
+    if (o->witness) {
         printf("\t%s\t%zu", r->witness.closed ? "closed" : "open",
                r->witness.inside);
         for (size_t k = 0; k < set->dim; k++) {
@@ -62,21 +105,38 @@ static koksma_star_method read_method(const char *text)
     cli_usage("-m takes auto, sweep or tree, not \"%s\"", text);
 }
 
+/* I/M, as in 2/8. */
+static void read_part(star_options *o, const char *text)
+{
+    char first[32];
+    const char *slash = strchr(text, '/');
+
+    if (slash == NULL || (size_t)(slash - text) >= sizeof first)
+        cli_usage("--part takes two numbers like 2/8, not \"%s\"", text);
+    memcpy(first, text, (size_t)(slash - text));
+    first[slash - text] = '\0';
+    o->opts.parts = cli_count("--part", slash + 1, 1, 1000000);
+    o->opts.part = cli_count("--part", first, 1, o->opts.parts);
+}
+
 /* Returns whether the set was finished. */
-static bool measure(cli_input *input, const koksma_set *set, star_options *o)
+static bool measure(const koksma_set *set, star_options *o)
 {
     koksma_star_result r = {.witness.corner = malloc(set->dim * sizeof(double))};
     koksma_error err;
     koksma_status status;
 
     if (r.witness.corner == NULL) cli_fail("not enough memory for a witness");
+    o->traced = (koksma_interval){-1.0, 2.0};
     cli_watch_start(&o->watch);
-    o->opts.state = &o->watch;
     status = koksma_star(&r, koksma_set_view(set), &o->opts, &err);
     cli_watch_stop(&o->watch);
     if (status != KOKSMA_OK && status != KOKSMA_STOPPED)
-        cli_fail_input(input, &err);
-    print_row(input, set, &r, o->witness);
+        cli_fail_input(o->input, &err);
+    if (o->trace)
+        trace(o, r.value, r.work);
+    else
+        print_row(o, set, &r);
     if (status == KOKSMA_STOPPED) cli_note("%s", err.text);
     if (o->verbose)
         cli_note("%zu points, %zu coordinates: %s, %.3g %s, %.2f s", set->n,
@@ -89,7 +149,7 @@ static bool measure(cli_input *input, const koksma_set *set, star_options *o)
 
 int main(int argc, char *argv[])
 {
-    star_options o = {.opts = {.progress = cli_watch_progress}};
+    star_options o = {.opts = {.progress = on_progress}};
     koksma_set set = {0};
     bool header = false, finished = true;
     int c;
@@ -106,17 +166,26 @@ int main(int argc, char *argv[])
             o.opts.anytime = true;
             o.opts.work = HUGE_VAL; /* who says how long does not mind how much */
             break;
+        case 'j': o.opts.threads = cli_count("-j", optarg, 0, 65536); break;
+        case PART: read_part(&o, optarg); break;
+        case TRACE: o.trace = o.opts.anytime = true; break;
         case 'w': o.witness = true; break;
         case 'p': o.watch.show = true; break;
         case 'v': o.verbose = true; break;
         }
 
+    if (o.trace && o.witness) cli_usage("--trace has no room for a witness");
+    if (o.opts.parts > 1 && o.opts.method == KOKSMA_STAR_SWEEP)
+        cli_usage("--part takes the tree: the sweep cannot be cut");
+
     cli_input input = cli_inputs(argc, argv, KOKSMA_POINTS);
 
+    o.input = &input;
+    o.opts.state = &o;
     while (finished && cli_read_set(&input, &set)) {
-        if (!header) print_header(input.several, o.witness);
+        if (!header) print_header(&o);
         header = true;
-        finished = measure(&input, &set, &o);
+        finished = measure(&set, &o);
     }
     koksma_set_free(&set);
     cli_finish(finished ? CLI_DONE : CLI_STOPPED);
