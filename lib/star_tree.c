@@ -173,6 +173,7 @@ static koksma_status begin(search *s, ki_best *b, const koksma_star_opts *opts)
                   .parts = opts->parts > 1 ? opts->parts : 1};
     s->tree.team = ki_team_open(opts->threads);
     if (s->tree.team == NULL) return KOKSMA_ENOMEM;
+    ki_team_raise(s->tree.team, b->proven);
     s->worker = calloc(2 * ki_team_threads(s->tree.team), sizeof *s->worker);
     s->low = ki_alloc(dim, 2 * sizeof *s->low);
     if (s->worker == NULL || s->low == NULL ||
