@@ -158,17 +158,17 @@ static bool add_task(ki_tasks *tasks, const ki_worker *w, const ki_cell *c)
 }
 
 /* Search the cell `depth` of the path; say whether it is to be split. */
-static bool open_up(ki_worker *w, size_t depth, size_t limit, ki_tasks *tasks)
+static bool open_up(ki_worker *w, size_t depth, double most, ki_tasks *tasks)
 {
     ki_cell *c = &w->cell[depth];
 
     if (!examine(w, c)) return false;
-    if (tasks == NULL || depth < limit) return true;
+    if (tasks == NULL || c->bound > most) return true;
     if (!add_task(tasks, w, c)) give_up(w);
     return false;
 }
 
-void ki_dive(ki_worker *w, const uint32_t *low, const uint32_t *high, size_t levels,
+void ki_dive(ki_worker *w, const uint32_t *low, const uint32_t *high, double most,
              ki_tasks *tasks)
 {
     size_t depth =
@@ -178,7 +178,7 @@ void ki_dive(ki_worker *w, const uint32_t *low, const uint32_t *high, size_t lev
     memcpy(w->new_high, high, w->ranks->dim * sizeof *high);
     if (!enter(w, 0)) return;
     do {
-        if (open_up(w, depth + 1, levels + 1, tasks))
+        if (open_up(w, depth + 1, most, tasks))
             depth++;
         else
             ki_cell_leave(w, &w->cell[depth + 1]);

@@ -1,7 +1,9 @@
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "error.h"
+#include "rng.h"
 #include "star_tree_kernels.h"
 
 /* The whole search: stages, each of which proves a bound; tasks, cells that the
@@ -95,8 +97,8 @@ static bool all_boxes(search *s, bool closed)
     return true;
 }
 
-/* Cut the search into tasks: the cells that so many splits make of it. */
-static void make_tasks(search *s, size_t levels)
+/* Cut the search into tasks: the cells that cannot hold more than `most`. */
+static void make_tasks(search *s, double most)
 {
     s->tasks.count = 0;
     /* Closed boxes first: of most sets they hold the extreme, and knowing it early
@@ -105,20 +107,33 @@ static void make_tasks(search *s, size_t levels)
         ki_worker *w = worker_of(s, 0, closed);
 
         if (w == NULL) return;
-        if (all_boxes(s, closed)) ki_dive(w, s->low, s->high, levels, &s->tasks);
+        if (all_boxes(s, closed)) ki_dive(w, s->low, s->high, most, &s->tasks);
     }
 }
 
-/* A thread's work on a task of this share. */
+/* Keep this share of the tasks.  They are dealt at random, since neighbours are
+ * alike, and the same way for all shares. */
+static void deal_tasks(search *s)
+{
+    size_t size = 2 * s->tree.best->p.dim + 1, kept = 0;
+    koksma_rng rng = koksma_rng_seed(0, 0);
+
+    for (size_t i = 0; i < s->tasks.count; i++)
+        if (koksma_rng_below(&rng, s->parts) == s->part)
+            memmove(s->tasks.number + kept++ * size, s->tasks.number + i * size,
+                    size * sizeof *s->tasks.number);
+    s->tasks.count = kept;
+}
+
+/* A thread's work on a task. */
 static void work_on(void *state, size_t thread, size_t number)
 {
     search *s = state;
     size_t dim = s->tree.best->p.dim;
-    const uint32_t *task =
-        s->tasks.number + (s->part + number * s->parts) * (2 * dim + 1);
+    const uint32_t *task = s->tasks.number + number * (2 * dim + 1);
     ki_worker *w = worker_of(s, thread, task[0] == 1);
 
-    if (w != NULL) ki_dive(w, task + 1, task + 1 + dim, 0, NULL);
+    if (w != NULL) ki_dive(w, task + 1, task + 1 + dim, 0.0, NULL);
 }
 
 /* How many tasks there should be: shares of equal work take many, and must not
@@ -131,22 +146,31 @@ static size_t enough_tasks(const search *s)
     return threads > 1 ? 128 * threads : 1;
 }
 
+/* Tasks of about equal work, as far as a cell's bound can tell: how much of it is
+ * above the target decides how deep the search below goes. */
+static void cut(search *s)
+{
+    double target = s->tree.factor * s->tree.best->proven, above = 1.0 - target;
+
+    make_tasks(s, HUGE_VAL);
+    while (s->tasks.count > 0 && s->tasks.count < enough_tasks(s) && above > 1e-9 &&
+           !ki_team_stopped(s->tree.team)) {
+        above *= 0.7;
+        make_tasks(s, target + above);
+    }
+}
+
 /* A stage: as it ends no box of this share deviates by more than factor * the
  * incumbent. */
 static void search_stage(search *s, double factor)
 {
     ki_tree *t = &s->tree;
-    size_t levels = 0, before;
 
     if (ki_team_stopped(t->team)) return;
     t->factor = factor;
-    make_tasks(s, levels);
-    do {
-        before = s->tasks.count;
-        if (before > 0 && before < enough_tasks(s)) make_tasks(s, levels += 3);
-    } while (s->tasks.count > before && !ki_team_stopped(t->team));
-    ki_team_run(t->team, (s->tasks.count + s->parts - 1 - s->part) / s->parts,
-                work_on, s);
+    cut(s);
+    if (s->parts > 1) deal_tasks(s);
+    ki_team_run(t->team, s->tasks.count, work_on, s);
     if (ki_team_stopped(t->team)) return;
     t->upper = fmin(t->upper, fmax(t->best->value.upper, factor * t->best->proven));
     ki_tree_report(t, 0.0);

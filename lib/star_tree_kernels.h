@@ -130,9 +130,10 @@ typedef struct ki_worker {
 koksma_status ki_worker_begin(ki_worker *w, ki_tree *tree, bool closed);
 void ki_worker_end(ki_worker *w); /* also of one that is all 0 */
 
-/* Search the cell from low to high.  With tasks, cells `levels` parts deeper are
- * added to them instead.  Without memory the tree says so, and the team stops. */
-void ki_dive(ki_worker *w, const uint32_t *low, const uint32_t *high, size_t levels,
+/* Search the cell from low to high.  With tasks, cells whose bound is `most`
+ * or less are added to them instead.  Without memory the tree says so, and the team
+ * stops. */
+void ki_dive(ki_worker *w, const uint32_t *low, const uint32_t *high, double most,
              ki_tasks *tasks);
 
 /* Offer the box at corner to the incumbent. */
