@@ -26,6 +26,7 @@ void ki_tree_report(ki_tree *t, double work)
     const koksma_star_opts *opts = t->opts;
 
     t->work += work;
+    if (ki_team_stopped(t->team)) return; /* the caller has had his say */
     if ((opts->work > 0.0 && t->work > opts->work) ||
         (opts->progress != NULL &&
          opts->progress(opts->state, t->best->value.lower, t->upper, t->work) != 0))
