@@ -618,6 +618,8 @@ static const struct stop {
     {KOKSMA_STAR_SWEEP, 5000, 2, 2e6, 0}, {KOKSMA_STAR_SWEEP, 5000, 2, 1.0, 0},
     {KOKSMA_STAR_SWEEP, 300, 4, 0.0, 1},  {KOKSMA_STAR_SWEEP, 300, 4, 0.0, 3},
     {KOKSMA_STAR_SWEEP, 300, 4, 2e6, 0},  {KOKSMA_STAR_SWEEP, 300, 4, 1.0, 0},
+    {KOKSMA_STAR_DEM, 3000, 4, 0.0, 1},   {KOKSMA_STAR_DEM, 3000, 4, 0.0, 3},
+    {KOKSMA_STAR_DEM, 3000, 4, 5e6, 0},   {KOKSMA_STAR_DEM, 3000, 4, 1.0, 0},
     {KOKSMA_STAR_TREE, 3000, 4, 0.0, 1},  {KOKSMA_STAR_TREE, 3000, 4, 0.0, 3},
     {KOKSMA_STAR_TREE, 3000, 4, 5e5, 0},  {KOKSMA_STAR_TREE, 3000, 4, 1.0, 0},
 };
@@ -756,7 +758,9 @@ START_TEST(refused_options)
     koksma_star_opts bad[] = {{.work = -1.0},
                               {.work = (double)NAN},
                               {.tolerance = -1e-3},
-                              {.tolerance = (double)NAN}};
+                              {.tolerance = (double)NAN},
+                              {.method = KOKSMA_STAR_SWEEP, .part = 1, .parts = 2},
+                              {.method = KOKSMA_STAR_DEM, .part = 1, .parts = 2}};
 
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         koksma_star_result r = {.witness.corner = NULL};
