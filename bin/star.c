@@ -10,7 +10,7 @@
 enum { PART = CLI_LONG, TRACE };
 
 static const cli_option options[] = {
-    {'m', "method", "METHOD", "auto, sweep or tree (default auto)"},
+    {'m', "method", "METHOD", "auto, sweep, tree or dem (default auto)"},
     {'e', "tolerance", "E", "stop at upper <= (1+E) lower (default 0: exact)"},
     {'t', "time", "SECONDS", "stop then, with the interval so far"},
     {'j', "threads", "THREADS", "how many threads (default 0: one a processor)"},
@@ -25,6 +25,15 @@ static const cli_option options[] = {
 static const cli_tool tool = {"koksma-star", "[FILE]...",
                               "Bound the star discrepancy of each point set.",
                               options};
+
+static const struct {
+    const char *name, *steps;
+} methods[] = {
+    [KOKSMA_STAR_AUTO] = {"auto", NULL},
+    [KOKSMA_STAR_SWEEP] = {"sweep", "corners"},
+    [KOKSMA_STAR_TREE] = {"tree", "list entries"},
+    [KOKSMA_STAR_DEM] = {"dem", "products"},
+};
 
 typedef struct star_options {
     koksma_star_opts opts;
@@ -99,10 +108,9 @@ static void print_row(const star_options *o, const koksma_set *set,
 
 static koksma_star_method read_method(const char *text)
 {
-    if (strcmp(text, "auto") == 0) return KOKSMA_STAR_AUTO;
-    if (strcmp(text, "sweep") == 0) return KOKSMA_STAR_SWEEP;
-    if (strcmp(text, "tree") == 0) return KOKSMA_STAR_TREE;
-    cli_usage("-m takes auto, sweep or tree, not \"%s\"", text);
+    for (int m = KOKSMA_STAR_AUTO; m <= KOKSMA_STAR_DEM; m++)
+        if (strcmp(text, methods[m].name) == 0) return (koksma_star_method)m;
+    cli_usage("-m takes auto, sweep, tree or dem, not \"%s\"", text);
 }
 
 /* I/M, as in 2/8. */
@@ -140,8 +148,7 @@ static bool measure(const koksma_set *set, star_options *o)
     if (status == KOKSMA_STOPPED) cli_note("%s", err.text);
     if (o->verbose)
         cli_note("%zu points, %zu coordinates: %s, %.3g %s, %.2f s", set->n,
-                 set->dim, r.method == KOKSMA_STAR_SWEEP ? "sweep" : "tree", r.work,
-                 r.method == KOKSMA_STAR_SWEEP ? "corners" : "list entries",
+                 set->dim, methods[r.method].name, r.work, methods[r.method].steps,
                  cli_seconds(&o->watch));
     free(r.witness.corner);
     return status == KOKSMA_OK;
@@ -175,8 +182,9 @@ int main(int argc, char *argv[])
         }
 
     if (o.trace && o.witness) cli_usage("--trace has no room for a witness");
-    if (o.opts.parts > 1 && o.opts.method == KOKSMA_STAR_SWEEP)
-        cli_usage("--part takes the tree: the sweep cannot be cut");
+    if (o.opts.parts > 1 && o.opts.method != KOKSMA_STAR_AUTO &&
+        o.opts.method != KOKSMA_STAR_TREE)
+        cli_usage("--part takes the tree: the others cannot be cut");
 
     cli_input input = cli_inputs(argc, argv, KOKSMA_POINTS);
 

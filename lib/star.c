@@ -50,8 +50,9 @@ static koksma_status check_opts(const koksma_star_opts *opts, koksma_points p,
     if (opts->parts > 1 && (opts->part < 1 || opts->part > opts->parts))
         return ki_fail(err, KOKSMA_EINVAL, 0, "there is no part %zu of %zu",
                        opts->part, opts->parts);
-    if (opts->parts > 1 && opts->method == KOKSMA_STAR_SWEEP)
-        return ki_fail(err, KOKSMA_EINVAL, 0, "the sweep cannot be cut into parts");
+    if (opts->parts > 1 && opts->method != KOKSMA_STAR_AUTO &&
+        opts->method != KOKSMA_STAR_TREE)
+        return ki_fail(err, KOKSMA_EINVAL, 0, "the tree alone is cut into parts");
     if (p.n >= (size_t)1 << 31)
         return ki_fail(err, KOKSMA_EINVAL, 0, "%zu points: 2^31 are too many", p.n);
     return KOKSMA_OK;
@@ -77,6 +78,8 @@ koksma_status koksma_star(koksma_star_result *out, koksma_points p,
     r.method = choose(opts, p);
     if (r.method == KOKSMA_STAR_SWEEP)
         status = ki_star_sweep(&best, opts, &r.value.upper, &r.work, &stopped);
+    else if (r.method == KOKSMA_STAR_DEM)
+        status = ki_star_dem(&best, opts, &r.value.upper, &r.work, &stopped);
     else
         status = ki_star_tree(&best, opts, &r.value.upper, &r.work, &stopped);
     if (status != KOKSMA_OK) {

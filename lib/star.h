@@ -26,11 +26,13 @@ typedef struct koksma_box {
     bool closed;    /* whether the box includes its upper faces */
 } koksma_box;
 
+/* All find the same value and witness, to the last bit. */
 typedef enum koksma_star_method {
     KOKSMA_STAR_AUTO,  /* the sweep for dim 1 and up to 2^20 corners, else the tree
                         */
     KOKSMA_STAR_SWEEP, /* visit every corner that a point can hold up */
-    KOKSMA_STAR_TREE   /* branch and bound */
+    KOKSMA_STAR_TREE,  /* branch and bound */
+    KOKSMA_STAR_DEM    /* Dobkin, Eppstein and Mitchell: a second opinion */
 } koksma_star_method;
 
 typedef struct koksma_star_result {
@@ -38,7 +40,7 @@ typedef struct koksma_star_result {
     koksma_box witness;        /* its local discrepancy is at least value.lower */
     koksma_star_method method; /* which one ran */
     double work; /* its steps: corners for the sweep, entries of lists of
-                  * points for the tree */
+                  * points for the tree, products of sides for dem */
 } koksma_star_result;
 
 typedef struct koksma_star_opts {
@@ -51,7 +53,7 @@ typedef struct koksma_star_opts {
     size_t part, parts; /* 1 <= part <= parts: do this share of the work (the tree);
                          * parts 0 or 1: all of it */
     double work; /* stop after about so many steps; 0: after KOKSMA_STAR_WORK for
-                  * the sweep, never for the tree */
+                  * the sweep, never for the others */
     koksma_progress *progress; /* called a few times a second; NULL: never */
     void *state;               /* handed to progress */
 } koksma_star_opts;
@@ -70,18 +72,23 @@ typedef struct koksma_star_opts {
  *                 place wide, unless a tolerance is given; witness: the best
  *                 box, of equally good ones that with the lexicographically least
  *                 corner; compared with twice the precision of a double (with a
- *                 tolerance: some box).  out->witness.corner is an input too: NULL,
- * or room for dim doubles err    filled on failure; may be NULL In:      p      n <
- * 2^31 points in [0,1]^dim, ties allowed opts   NULL means KOKSMA_STAR_DEFAULTS
+ *                 tolerance: some box).  out->witness.corner is an input too:
+ *                 NULL, or room for dim doubles
+ *          err    filled on failure; may be NULL
+ * In:      p      n < 2^31 points in [0,1]^dim, ties allowed
+ *          opts   NULL means KOKSMA_STAR_DEFAULTS
  * Returns: KOKSMA_OK; KOKSMA_STOPPED when progress said so or the work ran out:
  *          value is then true, but wider; KOKSMA_EINVAL or KOKSMA_EDOMAIN as
  *          koksma_points_check, and for options out of range; KOKSMA_ENOMEM
  * Cost:    sweep: n log n for dim 1, n^2 for dim 2, below n^dim above; memory
- * n*dim. tree: no useful bound; measured on Halton points about n^1.5 for dim 3,
+ *          n*dim.
+ *          tree: no useful bound; measured on Halton points about n^1.5 for dim 3,
  *          n^2 for dim 4 and n^2.7 for dim 8; memory n*dim times the depth of the
- *          search at worst
- * Source:  critical corners: [Niederreiter 1992, thm 2.6] for dim 1, [Bundschuh,
- *          Zhu 1993] above; the tree is Koksma's own: lib/star_bound.c proves it */
+ *          search at worst.
+ *          dem: n^(1+dim/2) for a given dim >= 2, and more only where many boxes
+ * tie for the best; memory n*dim Source:  critical corners: [Niederreiter 1992,
+ * thm 2.6] for dim 1, [Bundschuh, Zhu 1993] above; dem: [Dobkin, Eppstein, Mitchell
+ * 1996]; the tree is Koksma's own: lib/star_bound.c proves it */
 koksma_status koksma_star(koksma_star_result *out, koksma_points p,
                           const koksma_star_opts *opts, koksma_error *err);
 

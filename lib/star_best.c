@@ -44,15 +44,44 @@ static bool may_tie(ki_twofold a, ki_twofold b)
     return fabs((a.hi - b.hi) + (a.lo - b.lo)) <= a.err + b.err;
 }
 
+/* Whether side k of a closed box ends at a point in it. */
+static bool is_held(koksma_points p, const double *corner, size_t k)
+{
+    for (size_t i = 0; i < p.n; i++) {
+        const double *x = p.x + i * p.dim;
+        size_t l = x[k] == corner[k] ? 0 : p.dim + 1;
+
+        while (l < p.dim && x[l] <= corner[l])
+            l++;
+        if (l == p.dim) return true;
+    }
+    return false;
+}
+
+/* A closed box with a side that could be shorter is no better than one without,
+ * which is offered too.  But where it has next to no volume it may tie within the
+ * errors, and so decide how wide the interval is; and not every kernel offers it.
+ * Elsewhere an ulp of a side shows: n * vol * 2^-53 is more than all errors. */
+static bool is_loose(const ki_best *b, const double *corner, bool closed,
+                     double vol)
+{
+    size_t k = 0;
+
+    if (!closed || vol > 0x1p-40) return false;
+    while (k < b->p.dim && is_held(b->p, corner, k))
+        k++;
+    return k < b->p.dim;
+}
+
 /* The value is that of the witness, with the error of any box that may tie with it:
  * all others are surely below.  So it does not depend on the order either. */
 void ki_best_offer(ki_best *b, const double *corner, size_t inside, bool closed)
 {
-    ki_twofold excess =
-        ki_excess(closed ? 1.0 : -1.0, inside, b->p.n, ki_volume(corner, b->p.dim));
+    ki_twofold vol = ki_volume(corner, b->p.dim);
+    ki_twofold excess = ki_excess(closed ? 1.0 : -1.0, inside, b->p.n, vol);
     bool better = is_better(b, excess, corner), tie = may_tie(excess, b->excess);
 
-    if (!better && !tie) return;
+    if ((!better && !tie) || is_loose(b, corner, closed, vol.hi)) return;
     if (tie) excess.err = b->excess.err = fmax(excess.err, b->excess.err);
     if (better) {
         memcpy(b->witness.corner, corner, b->p.dim * sizeof *corner);

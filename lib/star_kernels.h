@@ -46,4 +46,9 @@ koksma_status ki_star_sweep(ki_best *b, const koksma_star_opts *opts, double *up
 koksma_status ki_star_tree(ki_best *b, const koksma_star_opts *opts, double *upper,
                            double *work, bool *stopped);
 
+/* A partition of all corners, and the best of each cell by dynamic programming, for
+ * any dim.  *work: the products formed; the rest as for the sweep. */
+koksma_status ki_star_dem(ki_best *b, const koksma_star_opts *opts, double *upper,
+                          double *work, bool *stopped);
+
 #endif

@@ -53,6 +53,11 @@ t two-sets 0 "# input${tab}n${tab}dim${tab}lower${tab}upper
 t two-files 0 "a:1${tab}1${tab}1${tab}0.5${tab}0.5
 -:1${tab}1${tab}1${tab}1${tab}1" "" \
     'echo .5 >a; cp a ./-; echo 1 >./-; koksma-star -q a ./- | sed "s|^\./||"'
+t second-opinion 0 "" "" \
+    'koksma-points halton -d 4 -n 200 >p; koksma-star -w -m tree p >1
+     koksma-star -w -m dem p >2; cmp 1 2'
+has what-was-done 0 'dem, [0-9.e+]* products' \
+    'koksma-points halton -d 3 -n 50 | koksma-star -m dem -v'
 t points 0 "# koksma-points halton -n 3 -d 2
 # koksma: points=halton scramble=none
 0${tab}0
@@ -175,6 +180,7 @@ t sobol-dim 2 "" "koksma-points: dimension 51: sobol has 1 to 50$try" \
     'koksma-points sobol -d 51'
 t too-far 2 "" "koksma-points: indices reach beyond 2^64 - 1$try" \
     'koksma-points halton --start 18446744073709551615 -n 2'
+has method 2 'takes auto, sweep, tree or dem, not "best"' 'echo .5 | koksma-star -m best'
 has unknown-option 2 "Try 'koksma-star -h'." 'koksma-star --nonsense'
 has parameter 2 'f2 has a from 0 to 0.5, not 0.75' 'echo 0 0 | koksma-eval f2 -a .75'
 

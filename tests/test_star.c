@@ -58,24 +58,31 @@ static void solve_by(answer *a, koksma_points p, koksma_star_method method)
     ck_assert_msg(a->r.method == method, "another method ran");
 }
 
-/* The one method is held against the definition; the other must say the same, to
- * the last bit.  (Where an open and a closed box tie at one corner, they may
- * differ in the kind.) */
-static void solve(answer *a, koksma_points p)
+/* Another method must say the same as a, to the last bit.  (Where an open and a
+ * closed box tie at one corner, they may differ in the kind.) */
+static void agree(const answer *a, koksma_points p, koksma_star_method method,
+                  const char *name)
 {
     static answer b;
 
-    solve_by(a, p, KOKSMA_STAR_SWEEP);
-    solve_by(&b, p, KOKSMA_STAR_TREE);
+    solve_by(&b, p, method);
     ck_assert_msg(
         a->r.value.lower == b.r.value.lower && a->r.value.upper == b.r.value.upper,
-        "n %zu dim %zu: sweep [%.17g, %.17g], tree [%.17g, %.17g]", p.n, p.dim,
-        a->r.value.lower, a->r.value.upper, b.r.value.lower, b.r.value.upper);
+        "n %zu dim %zu: sweep [%.17g, %.17g], %s [%.17g, %.17g]", p.n, p.dim,
+        a->r.value.lower, a->r.value.upper, name, b.r.value.lower, b.r.value.upper);
     for (size_t k = 0; k < p.dim; k++)
         ck_assert_msg(a->corner[k] == b.corner[k],
-                      "n %zu dim %zu: the witnesses part along axis %zu: %a, %a",
-                      p.n, p.dim, k, a->corner[k], b.corner[k]);
+                      "n %zu dim %zu: sweep and %s part along axis %zu: %a, %a",
+                      p.n, p.dim, name, k, a->corner[k], b.corner[k]);
     ck_assert(koksma_box_local(&b.r.witness, p).lower >= b.r.value.lower);
+}
+
+/* The one method is held against the definition, and the others against it. */
+static void solve(answer *a, koksma_points p)
+{
+    solve_by(a, p, KOKSMA_STAR_SWEEP);
+    agree(a, p, KOKSMA_STAR_TREE, "tree");
+    agree(a, p, KOKSMA_STAR_DEM, "dem");
 }
 
 /* What a recount of any witness must show, finished or not.  It proves
@@ -611,6 +618,8 @@ static const struct stop {
     {KOKSMA_STAR_SWEEP, 5000, 2, 2e6, 0}, {KOKSMA_STAR_SWEEP, 5000, 2, 1.0, 0},
     {KOKSMA_STAR_SWEEP, 300, 4, 0.0, 1},  {KOKSMA_STAR_SWEEP, 300, 4, 0.0, 3},
     {KOKSMA_STAR_SWEEP, 300, 4, 2e6, 0},  {KOKSMA_STAR_SWEEP, 300, 4, 1.0, 0},
+    {KOKSMA_STAR_DEM, 3000, 4, 0.0, 1},   {KOKSMA_STAR_DEM, 3000, 4, 0.0, 3},
+    {KOKSMA_STAR_DEM, 3000, 4, 5e6, 0},   {KOKSMA_STAR_DEM, 3000, 4, 1.0, 0},
     {KOKSMA_STAR_TREE, 3000, 4, 0.0, 1},  {KOKSMA_STAR_TREE, 3000, 4, 0.0, 3},
     {KOKSMA_STAR_TREE, 3000, 4, 5e5, 0},  {KOKSMA_STAR_TREE, 3000, 4, 1.0, 0},
 };
@@ -749,7 +758,9 @@ START_TEST(refused_options)
     koksma_star_opts bad[] = {{.work = -1.0},
                               {.work = (double)NAN},
                               {.tolerance = -1e-3},
-                              {.tolerance = (double)NAN}};
+                              {.tolerance = (double)NAN},
+                              {.method = KOKSMA_STAR_SWEEP, .part = 1, .parts = 2},
+                              {.method = KOKSMA_STAR_DEM, .part = 1, .parts = 2}};
 
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         koksma_star_result r = {.witness.corner = NULL};
