@@ -8,9 +8,10 @@
 #include "star.h"
 
 static const cli_option options[] = {
-    {'m', "method", "METHOD", "auto, sweep or tree (default auto)"},
+    {'m', "method", "METHOD", "auto, sweep, tree or search (default auto)"},
     {'e', "tolerance", "E", "stop at upper <= (1+E) lower (default 0: exact)"},
     {'t', "time", "SECONDS", "stop then, with the interval so far"},
+    {'s', "seed", "SEED", "of the search (default 1)"},
     {'w', "witness", NULL, "write the box that proves the lower bound"},
     {'p', "progress", NULL, "a live line on standard error"},
     {'v', "verbose", NULL, "say on standard error what was done"},
@@ -59,7 +60,26 @@ static koksma_star_method read_method(const char *text)
     if (strcmp(text, "auto") == 0) return KOKSMA_STAR_AUTO;
     if (strcmp(text, "sweep") == 0) return KOKSMA_STAR_SWEEP;
     if (strcmp(text, "tree") == 0) return KOKSMA_STAR_TREE;
-    cli_usage("-m takes auto, sweep or tree, not \"%s\"", text);
+    if (strcmp(text, "search") == 0) return KOKSMA_STAR_SEARCH;
+    cli_usage("-m takes auto, sweep, tree or search, not \"%s\"", text);
+}
+
+static const char *method_name(koksma_star_method method)
+{
+    switch (method) {
+    case KOKSMA_STAR_SWEEP: return "sweep";
+    case KOKSMA_STAR_SEARCH: return "search";
+    default: return "tree";
+    }
+}
+
+static const char *step_name(koksma_star_method method)
+{
+    switch (method) {
+    case KOKSMA_STAR_SWEEP: return "corners";
+    case KOKSMA_STAR_SEARCH: return "points looked at";
+    default: return "list entries";
+    }
 }
 
 /* Returns whether the set was finished. */
@@ -80,8 +100,7 @@ static bool measure(cli_input *input, const koksma_set *set, star_options *o)
     if (status == KOKSMA_STOPPED) cli_note("%s", err.text);
     if (o->verbose)
         cli_note("%zu points, %zu coordinates: %s, %.3g %s, %.2f s", set->n,
-                 set->dim, r.method == KOKSMA_STAR_SWEEP ? "sweep" : "tree", r.work,
-                 r.method == KOKSMA_STAR_SWEEP ? "corners" : "list entries",
+                 set->dim, method_name(r.method), r.work, step_name(r.method),
                  cli_seconds(&o->watch));
     free(r.witness.corner);
     return status == KOKSMA_OK;
@@ -89,7 +108,7 @@ static bool measure(cli_input *input, const koksma_set *set, star_options *o)
 
 int main(int argc, char *argv[])
 {
-    star_options o = {.opts = {.progress = cli_watch_progress}};
+    star_options o = {.opts = {.seed = 1, .progress = cli_watch_progress}};
     koksma_set set = {0};
     bool header = false, finished = true;
     int c;
@@ -106,6 +125,7 @@ int main(int argc, char *argv[])
             o.opts.anytime = true;
             o.opts.work = HUGE_VAL; /* who says how long does not mind how much */
             break;
+        case 's': o.opts.seed = cli_count("-s", optarg, 0, UINT64_MAX); break;
         case 'w': o.witness = true; break;
         case 'p': o.watch.show = true; break;
         case 'v': o.verbose = true; break;

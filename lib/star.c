@@ -71,6 +71,8 @@ koksma_status koksma_star(koksma_star_result *out, koksma_points p,
     r.method = choose(opts, p);
     if (r.method == KOKSMA_STAR_SWEEP)
         status = ki_star_sweep(&best, opts, &r.value.upper, &r.work, &stopped);
+    else if (r.method == KOKSMA_STAR_SEARCH)
+        status = ki_star_search(&best, opts, &r.value.upper, &r.work, &stopped);
     else
         status = ki_star_tree(&best, opts, &r.value.upper, &r.work, &stopped);
     if (status != KOKSMA_OK) {

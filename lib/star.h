@@ -3,6 +3,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #include "num.h"
 #include "points.h"
@@ -30,7 +31,9 @@ typedef enum koksma_star_method {
     KOKSMA_STAR_AUTO,  /* the sweep for dim 1 and up to 2^20 corners, else the tree
                         */
     KOKSMA_STAR_SWEEP, /* visit every corner that a point can hold up */
-    KOKSMA_STAR_TREE   /* branch and bound */
+    KOKSMA_STAR_TREE,  /* branch and bound */
+    KOKSMA_STAR_SEARCH /* a heuristic: good boxes, until none better is found for
+                        * long; no upper bound but 1 */
 } koksma_star_method;
 
 typedef struct koksma_star_result {
@@ -38,7 +41,7 @@ typedef struct koksma_star_result {
     koksma_box witness;        /* its local discrepancy is at least value.lower */
     koksma_star_method method; /* which one ran */
     double work; /* its steps: corners for the sweep, entries of lists of
-                  * points for the tree */
+                  * points for the tree, points looked at for the search */
 } koksma_star_result;
 
 typedef struct koksma_star_opts {
@@ -48,7 +51,8 @@ typedef struct koksma_star_opts {
     bool anytime;  /* the tree works towards that in stages, which costs up to
                     * twice the time, but has an upper bound when it is stopped */
     double work;   /* stop after about so many steps; 0: after KOKSMA_STAR_WORK for
-                    * the sweep, never for the tree */
+                    * the sweep, never for the others */
+    uint64_t seed; /* of the search: it fixes every bit of the result */
     koksma_progress *progress; /* called a few times a second; NULL: never */
     void *state;               /* handed to progress */
 } koksma_star_opts;
@@ -58,27 +62,32 @@ typedef struct koksma_star_opts {
 
 #define KOKSMA_STAR_DEFAULTS                                                       \
     {                                                                              \
-        KOKSMA_STAR_AUTO, 0.0, false, 0.0, NULL, NULL                              \
+        KOKSMA_STAR_AUTO, 0.0, false, 0.0, 1, NULL, NULL                           \
     }
 
 /* Bound the star discrepancy of p.
  *
  * Out:     out    value: exact but for rounding, one or two units in the last
  *                 place wide, unless a tolerance is given; witness: the best
- *                 box, of equally good ones that with the lexicographically least
- *                 corner; compared with twice the precision of a double (with a
- *                 tolerance: some box).  out->witness.corner is an input too: NULL,
- * or room for dim doubles err    filled on failure; may be NULL In:      p      n <
- * 2^31 points in [0,1]^dim, ties allowed opts   NULL means KOKSMA_STAR_DEFAULTS
+ *                 box, of equally good ones that with the lexicographically
+ *                 least corner, compared with twice the precision of a double
+ *                 (with a tolerance: some box).  By the search: [found, 1] and
+ *                 the box found.  out->witness.corner is an input too: NULL, or
+ *                 room for dim doubles
+ *          err    filled on failure; may be NULL
+ * In:      p      n < 2^31 points in [0,1]^dim, ties allowed
+ *          opts   NULL means KOKSMA_STAR_DEFAULTS
  * Returns: KOKSMA_OK; KOKSMA_STOPPED when progress said so or the work ran out:
  *          value is then true, but wider; KOKSMA_EINVAL or KOKSMA_EDOMAIN as
  *          koksma_points_check, and for options out of range; KOKSMA_ENOMEM
  * Cost:    sweep: n log n for dim 1, n^2 for dim 2, below n^dim above; memory
- * n*dim. tree: no useful bound; measured on Halton points about n^1.5 for dim 3,
- *          n^2 for dim 4 and n^2.7 for dim 8; memory n*dim times the depth of the
- *          search at worst
+ *          n*dim.  tree: no useful bound; measured on Halton points about n^1.5
+ *          for dim 3, n^2 for dim 4 and n^2.7 for dim 8; memory n*dim times the
+ *          depth of the search at worst.  search: measured, 2 n*dim^2 microseconds;
+ *          memory n*dim
  * Source:  critical corners: [Niederreiter 1992, thm 2.6] for dim 1, [Bundschuh,
- *          Zhu 1993] above; the tree is Koksma's own: lib/star_bound.c proves it */
+ *          Zhu 1993] above; the tree is Koksma's own: lib/star_bound.c proves it;
+ *          so is the search: lib/star_climb.c */
 koksma_status koksma_star(koksma_star_result *out, koksma_points p,
                           const koksma_star_opts *opts, koksma_error *err);
 

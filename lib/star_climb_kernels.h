@@ -29,10 +29,10 @@ typedef struct ki_climber {
     uint32_t *turn; /* dim: the axes, in the order of a round */
     double *corner; /* dim */
     ki_summit elite[KI_ELITE]; /* the best summits, the best first */
-    size_t elites;
-    size_t starts; /* done */
-    double work;   /* points looked at */
-    void *memory;  /* of all the arrays */
+    size_t elites, idle;       /* idle: starts since the best of them got better */
+    size_t starts;             /* done */
+    double work;               /* points looked at */
+    void *memory;              /* of all the arrays */
 } ki_climber;
 
 /* seed and the kind of box fix all that follows.  Returns KOKSMA_OK or

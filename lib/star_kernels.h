@@ -46,4 +46,9 @@ koksma_status ki_star_sweep(ki_best *b, const koksma_star_opts *opts, double *up
 koksma_status ki_star_tree(ki_best *b, const koksma_star_opts *opts, double *upper,
                            double *work, bool *stopped);
 
+/* The heuristic alone.  *upper: no box deviates by more.  Returns KOKSMA_OK, also
+ * when stopped, or KOKSMA_ENOMEM. */
+koksma_status ki_star_search(ki_best *b, const koksma_star_opts *opts,
+                             double *upper, double *work, bool *stopped);
+
 #endif
