@@ -78,20 +78,13 @@ static void move_cut(ki_climber *c, size_t k, uint32_t cut)
     c->cut[k] = cut;
 }
 
-/* Move a cut off the middle of a run of ties. */
-static uint32_t off_ties(const ki_climber *c, size_t k, uint32_t cut)
+/* The cut of a side that reaches to 1. */
+static uint32_t full_cut(const ki_climber *c, size_t k)
 {
     const double *side = c->side + k * c->ranks->n;
-    uint32_t n = (uint32_t)c->ranks->n;
+    uint32_t cut = (uint32_t)c->ranks->n;
 
-    if (c->ranks->closed) {
-        if (cut == 0) cut = 1;
-        while (cut < n && side[cut] == side[cut - 1])
-            cut++;
-        return cut;
-    }
-    if (cut == n && side[n - 1] == 1.0) cut--;
-    while (cut > 0 && cut < n && side[cut] == side[cut - 1])
+    while (!c->ranks->closed && cut > 0 && side[cut - 1] == 1.0)
         cut--;
     return cut;
 }
@@ -269,7 +262,7 @@ static uint32_t random_cut(ki_climber *c, size_t k, size_t numbers)
         else
             high = middle;
     }
-    return off_ties(c, k, (uint32_t)low);
+    return (uint32_t)low;
 }
 
 /* A third of the starts are boxes with a few short sides, for the extremes of
@@ -291,7 +284,7 @@ static void choose_start(ki_climber *c)
         if (is_short)
             move_cut(c, k, random_cut(c, k, fresh ? few : dim));
         else
-            move_cut(c, k, fresh ? off_ties(c, k, (uint32_t)c->ranks->n) : from[k]);
+            move_cut(c, k, fresh ? full_cut(c, k) : from[k]);
     }
 }
 

@@ -140,7 +140,8 @@ START_TEST(hard_sets)
 }
 END_TEST
 
-/* One start's box: no other coordinate of a point, nor 1, makes a side better. */
+/* One start's box, if it was worth an offer: no other coordinate of a point, nor 1,
+ * makes a side better. */
 static void check_summit(koksma_points p, bool closed, uint64_t seed)
 {
     double corner[DIMS] = {0.0}, work = 0.0;
@@ -151,7 +152,8 @@ static void check_summit(koksma_points p, bool closed, uint64_t seed)
     ck_assert_int_eq(ki_climb(&best, &ranks, 1, seed, &work), KOKSMA_OK);
     ki_ranks_free(&ranks);
     ck_assert_double_ge(work, (double)(p.n * p.dim));
-    if (best.value.lower > 0.0) ck_assert(best.witness.closed == closed);
+    if (best.value.lower == 0.0) return; /* a summit below the plain */
+    ck_assert(best.witness.closed == closed);
 
     oracle_ratio summit = oracle_local(p, corner, closed);
 
@@ -177,13 +179,46 @@ START_TEST(summits)
 {
     static test_set s;
 
-    for (uint64_t round = 0; round < 60 * oracle_scale(); round++) {
-        size_t dim = 1 + (size_t)(round % 6), n = 1 + (size_t)(round * 7 % 90);
+    for (uint64_t round = 0; round < 600 * oracle_scale(); round++) {
+        size_t dim = 1 + (size_t)(round % 6), n = 1 + (size_t)(round * 7 % 40);
         koksma_points p = make_set(&s, n, dim, round);
 
         check_summit(p, false, round);
         check_summit(p, true, round);
     }
+}
+END_TEST
+
+/* The elite are distinct and in order, and do not stay for ever. */
+START_TEST(elite)
+{
+    static test_set s;
+    double corner[DIMS] = {0.0};
+    koksma_points p = make_set(&s, 40, 3, 0);
+    ki_best best = ki_best_begin(p, corner);
+    ki_ranks ranks;
+    ki_climber c;
+    bool renewed = false;
+
+    ck_assert_int_eq(ki_ranks_make(&ranks, p, true), KOKSMA_OK);
+    ck_assert_int_eq(ki_climber_begin(&c, &ranks, &best, 1), KOKSMA_OK);
+    for (size_t starts = 1; starts <= 1000; starts++) {
+        size_t before = c.elites;
+
+        ki_climber_go(&c, 1);
+        ck_assert_uint_eq(c.starts, starts);
+        ck_assert(c.elites >= 1 && c.elites <= KI_ELITE);
+        renewed = renewed || c.elites < before;
+        for (size_t e = 1; e < c.elites; e++) {
+            ck_assert(c.elite[e].excess <= c.elite[e - 1].excess);
+            for (size_t other = 0; other < e; other++)
+                ck_assert_mem_ne(c.elite[e].cut, c.elite[other].cut,
+                                 p.dim * sizeof *c.cut);
+        }
+    }
+    ck_assert(renewed);
+    ki_climber_end(&c);
+    ki_ranks_free(&ranks);
 }
 END_TEST
 
@@ -235,6 +270,7 @@ END_TEST
 START_TEST(same_seed_same_bits)
 {
     static test_set s;
+    int differ = 0;
 
     for (uint64_t round = 0; round < 8; round++) {
         koksma_points p = make_set(&s, 60, 2 + round, round);
@@ -245,7 +281,10 @@ START_TEST(same_seed_same_bits)
         ck_assert_mem_eq(a.corner, b.corner, sizeof a.corner);
         ck_assert_mem_eq(&a.r.value, &b.r.value, sizeof a.r.value);
         ck_assert_double_eq(a.r.work, b.r.work);
+        solve(&b, p, KOKSMA_STAR_SEARCH, round + 1);
+        differ += a.r.work != b.r.work;
     }
+    ck_assert_int_gt(differ, 0);
 }
 END_TEST
 
@@ -309,6 +348,7 @@ int main(void)
 
     tcase_add_test(tc, small_sets);
     tcase_add_test(tc, summits);
+    tcase_add_test(tc, elite);
     tcase_add_test(tc, same_seed_same_bits);
     tcase_add_test(tc, stopped_early);
 
