@@ -10,10 +10,11 @@
 enum { PART = CLI_LONG, TRACE };
 
 static const cli_option options[] = {
-    {'m', "method", "METHOD", "auto, sweep, tree or dem (default auto)"},
+    {'m', "method", "METHOD", "auto, sweep, tree, dem or search (default auto)"},
     {'e', "tolerance", "E", "stop at upper <= (1+E) lower (default 0: exact)"},
     {'t', "time", "SECONDS", "stop then, with the interval so far"},
     {'j', "threads", "THREADS", "how many threads (default 0: one a processor)"},
+    {'s', "seed", "SEED", "of the search (default 1)"},
     {PART, "part", "I/M", "do the I-th of M shares of the work"},
     {TRACE, "trace", NULL, "write a row at every improvement of the interval"},
     {'w', "witness", NULL, "write the box that proves the lower bound"},
@@ -33,6 +34,7 @@ static const struct {
     [KOKSMA_STAR_SWEEP] = {"sweep", "corners"},
     [KOKSMA_STAR_TREE] = {"tree", "list entries"},
     [KOKSMA_STAR_DEM] = {"dem", "products"},
+    [KOKSMA_STAR_SEARCH] = {"search", "points looked at"},
 };
 
 typedef struct star_options {
@@ -108,9 +110,9 @@ static void print_row(const star_options *o, const koksma_set *set,
 
 static koksma_star_method read_method(const char *text)
 {
-    for (int m = KOKSMA_STAR_AUTO; m <= KOKSMA_STAR_DEM; m++)
+    for (int m = KOKSMA_STAR_AUTO; m <= KOKSMA_STAR_SEARCH; m++)
         if (strcmp(text, methods[m].name) == 0) return (koksma_star_method)m;
-    cli_usage("-m takes auto, sweep, tree or dem, not \"%s\"", text);
+    cli_usage("-m takes auto, sweep, tree, dem or search, not \"%s\"", text);
 }
 
 /* I/M, as in 2/8. */
@@ -156,7 +158,7 @@ static bool measure(const koksma_set *set, star_options *o)
 
 int main(int argc, char *argv[])
 {
-    star_options o = {.opts = {.progress = on_progress}};
+    star_options o = {.opts = {.seed = 1, .progress = on_progress}};
     koksma_set set = {0};
     bool header = false, finished = true;
     int c;
@@ -176,6 +178,7 @@ int main(int argc, char *argv[])
         case 'j': o.opts.threads = cli_count("-j", optarg, 0, 65536); break;
         case PART: read_part(&o, optarg); break;
         case TRACE: o.trace = o.opts.anytime = true; break;
+        case 's': o.opts.seed = cli_count("-s", optarg, 0, UINT64_MAX); break;
         case 'w': o.witness = true; break;
         case 'p': o.watch.show = true; break;
         case 'v': o.verbose = true; break;

@@ -28,6 +28,13 @@ koksma_interval koksma_box_local(const koksma_box *box, koksma_points p)
                             count_inside(box->corner, p, box->closed), box->closed);
 }
 
+static ki_star_kernel *const kernels[] = {
+    [KOKSMA_STAR_SWEEP] = ki_star_sweep,
+    [KOKSMA_STAR_TREE] = ki_star_tree,
+    [KOKSMA_STAR_DEM] = ki_star_dem,
+    [KOKSMA_STAR_SEARCH] = ki_star_search,
+};
+
 /* The sweep is the plainer one, and the faster one for few corners: measured. */
 static koksma_star_method choose(const koksma_star_opts *opts, koksma_points p)
 {
@@ -41,6 +48,9 @@ static koksma_star_method choose(const koksma_star_opts *opts, koksma_points p)
 static koksma_status check_opts(const koksma_star_opts *opts, koksma_points p,
                                 koksma_error *err)
 {
+    if (opts->method < KOKSMA_STAR_AUTO || opts->method > KOKSMA_STAR_SEARCH)
+        return ki_fail(err, KOKSMA_EINVAL, 0, "there is no method %d",
+                       (int)opts->method);
     if (!(opts->work >= 0.0))
         return ki_fail(err, KOKSMA_EINVAL, 0, "the work to stop after is %g steps",
                        opts->work);
@@ -76,12 +86,7 @@ koksma_status koksma_star(koksma_star_result *out, koksma_points p,
     ki_best best = ki_best_begin(p, corner);
 
     r.method = choose(opts, p);
-    if (r.method == KOKSMA_STAR_SWEEP)
-        status = ki_star_sweep(&best, opts, &r.value.upper, &r.work, &stopped);
-    else if (r.method == KOKSMA_STAR_DEM)
-        status = ki_star_dem(&best, opts, &r.value.upper, &r.work, &stopped);
-    else
-        status = ki_star_tree(&best, opts, &r.value.upper, &r.work, &stopped);
+    status = kernels[r.method](&best, opts, &r.value.upper, &r.work, &stopped);
     if (status != KOKSMA_OK) {
         free(corner);
         return ki_fail_memory(err, "the search for boxes");

@@ -3,6 +3,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #include "num.h"
 #include "points.h"
@@ -32,7 +33,9 @@ typedef enum koksma_star_method {
                         */
     KOKSMA_STAR_SWEEP, /* visit every corner that a point can hold up */
     KOKSMA_STAR_TREE,  /* branch and bound */
-    KOKSMA_STAR_DEM    /* Dobkin, Eppstein and Mitchell: a second opinion */
+    KOKSMA_STAR_DEM,   /* Dobkin, Eppstein and Mitchell: a second opinion */
+    KOKSMA_STAR_SEARCH /* a heuristic: good boxes, until none better is found for
+                        * long; no upper bound but 1 */
 } koksma_star_method;
 
 typedef struct koksma_star_result {
@@ -40,22 +43,28 @@ typedef struct koksma_star_result {
     koksma_box witness;        /* its local discrepancy is at least value.lower */
     koksma_star_method method; /* which one ran */
     double work; /* its steps: corners for the sweep, entries of lists of
-                  * points for the tree, products of sides for dem */
+                  * points for the tree, products of sides for dem, points
+                  * looked at for the search */
 } koksma_star_result;
 
 typedef struct koksma_star_opts {
     koksma_star_method method;
-    double
-        tolerance;  /* the tree stops at upper <= (1 + tolerance) lower; 0: exact */
-    bool anytime;   /* the tree works towards that in stages, which costs up to
-                     * twice the time, but has an upper bound when it is stopped */
-    size_t threads; /* 0: one a processor (the tree) */
-    size_t part, parts; /* 1 <= part <= parts: do this share of the work (the tree);
-                         * parts 0 or 1: all of it */
-    double work; /* stop after about so many steps; 0: after KOKSMA_STAR_WORK for
-                  * the sweep, never for the others */
-    koksma_progress *progress; /* called a few times a second; NULL: never */
-    void *state;               /* handed to progress */
+    /* The tree stops at upper <= (1 + tolerance) lower; 0: exact. */
+    double tolerance;
+    /* The tree works towards that in stages, which takes two to three times as long
+     * in all, but has an upper bound when it is stopped. */
+    bool anytime;
+    size_t threads;     /* of the tree; 0: one a processor */
+    size_t part, parts; /* 1 <= part <= parts: the tree does this share of the work,
+                         * and finds a part_lower and a part_upper, whose maxima
+                         * over all parts are value; parts 0 or 1: all of it */
+    double work;   /* stop after about so many steps; 0: after KOKSMA_STAR_WORK for
+                    * the sweep, never for the others */
+    uint64_t seed; /* of the search: it fixes every bit of the result */
+    /* Called a few times a second, by the tree also when value improves; by any
+     * thread, but by one at a time.  NULL: never. */
+    koksma_progress *progress;
+    void *state; /* handed to progress */
 } koksma_star_opts;
 
 /* Corners that the sweep visits unless told otherwise, 2^36: a minute or so. */
@@ -63,17 +72,18 @@ typedef struct koksma_star_opts {
 
 #define KOKSMA_STAR_DEFAULTS                                                       \
     {                                                                              \
-        KOKSMA_STAR_AUTO, 0.0, false, 0, 1, 1, 0.0, NULL, NULL                     \
+        KOKSMA_STAR_AUTO, 0.0, false, 0, 1, 1, 0.0, 1, NULL, NULL                  \
     }
 
 /* Bound the star discrepancy of p.
  *
  * Out:     out    value: exact but for rounding, one or two units in the last
  *                 place wide, unless a tolerance is given; witness: the best
- *                 box, of equally good ones that with the lexicographically least
- *                 corner; compared with twice the precision of a double (with a
- *                 tolerance: some box).  out->witness.corner is an input too:
- *                 NULL, or room for dim doubles
+ *                 box, of equally good ones that with the lexicographically
+ *                 least corner, compared with twice the precision of a double
+ *                 (with a tolerance: some box).  By the search: [found, 1] and
+ *                 the box found.  out->witness.corner is an input too: NULL, or
+ *                 room for dim doubles
  *          err    filled on failure; may be NULL
  * In:      p      n < 2^31 points in [0,1]^dim, ties allowed
  *          opts   NULL means KOKSMA_STAR_DEFAULTS
@@ -84,11 +94,14 @@ typedef struct koksma_star_opts {
  *          n*dim.
  *          tree: no useful bound; measured on Halton points about n^1.5 for dim 3,
  *          n^2 for dim 4 and n^2.7 for dim 8; memory n*dim times the depth of the
- *          search at worst.
+ *          search at worst, for each thread.
  *          dem: n^(1+dim/2) for a given dim >= 2, and more only where many boxes
- * tie for the best; memory n*dim Source:  critical corners: [Niederreiter 1992,
- * thm 2.6] for dim 1, [Bundschuh, Zhu 1993] above; dem: [Dobkin, Eppstein, Mitchell
- * 1996]; the tree is Koksma's own: lib/star_bound.c proves it */
+ *          tie for the best; memory n*dim.
+ *          search: measured, 2 n*dim^2 microseconds; memory n*dim
+ * Source:  critical corners: [Niederreiter 1992, thm 2.6] for dim 1, [Bundschuh,
+ *          Zhu 1993] above; dem: [Dobkin, Eppstein, Mitchell 1996]; the tree is
+ *          Koksma's own: lib/star_bound.c proves it; so is the search:
+ *          lib/star_climb.c */
 koksma_status koksma_star(koksma_star_result *out, koksma_points p,
                           const koksma_star_opts *opts, koksma_error *err);
 

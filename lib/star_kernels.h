@@ -36,19 +36,15 @@ koksma_interval ki_box_deviation(koksma_points p, const double *corner,
  * true one then wins, by 1/n at least. */
 void ki_best_offer(ki_best *b, const double *corner, size_t inside, bool closed);
 
-/* Visit every critical corner of b->p, for any dim.  *work: the corners visited;
- * *stopped: whether that was cut short; *upper and what it returns as below. */
-koksma_status ki_star_sweep(ki_best *b, const koksma_star_opts *opts, double *upper,
-                            double *work, bool *stopped);
-
-/* Branch and bound, for any dim; n < 2^31.  *upper: no box deviates by more.
+/* A kernel: it offers boxes to b, and leaves in *upper what no box deviates above,
+ * in *work the steps that it took, and in *stopped whether it was told to stop.
  * Returns KOKSMA_OK, also when stopped, or KOKSMA_ENOMEM. */
-koksma_status ki_star_tree(ki_best *b, const koksma_star_opts *opts, double *upper,
-                           double *work, bool *stopped);
+typedef koksma_status ki_star_kernel(ki_best *b, const koksma_star_opts *opts,
+                                     double *upper, double *work, bool *stopped);
 
-/* A partition of all corners, and the best of each cell by dynamic programming, for
- * any dim.  *work: the products formed; the rest as for the sweep. */
-koksma_status ki_star_dem(ki_best *b, const koksma_star_opts *opts, double *upper,
-                          double *work, bool *stopped);
+ki_star_kernel ki_star_sweep; /* visit every critical corner */
+ki_star_kernel ki_star_tree;  /* branch and bound; n < 2^31 */
+ki_star_kernel ki_star_dem; /* a partition, and dynamic programming in its cells */
+ki_star_kernel ki_star_search; /* the heuristic alone; n < 2^31 */
 
 #endif

@@ -4,6 +4,7 @@
 
 #include "error.h"
 #include "rng.h"
+#include "star_climb_kernels.h"
 #include "star_tree_kernels.h"
 
 /* The whole search: stages, each of which proves a bound; tasks, cells that the
@@ -17,6 +18,7 @@ typedef struct search {
     ki_worker
         *worker; /* two a thread, for open and closed boxes; all 0 until used */
     size_t part, parts;
+    double climbed; /* points looked at before the tree, as last reported */
     ki_tasks tasks;
     uint32_t *low, *high; /* dim: of all the boxes of a kind */
 } search;
@@ -68,6 +70,24 @@ static void offer_flat_boxes(ki_tree *t, double *corner)
         }
         if (inside > 0) ki_tree_offer(t, corner, inside, true);
     }
+}
+
+/* The search for good boxes first: what is known early prunes.  It ends after so
+ * many starts a kind and axis that made nothing better. */
+enum { PATIENCE = 5 };
+
+static bool climbed(void *state, double work)
+{
+    search *s = state;
+    ki_tree *t = &s->tree;
+
+    ki_team_raise(t->team, t->best->proven);
+    if (work - s->climbed < 0x1p18) return false;
+    ki_team_lock(t->team);
+    ki_tree_report(t, work - s->climbed);
+    ki_team_unlock(t->team);
+    s->climbed = work;
+    return ki_team_stopped(t->team);
 }
 
 /* Thread `thread`'s worker for boxes of a kind; NULL without memory. */
@@ -231,7 +251,9 @@ koksma_status ki_star_tree(ki_best *b, const koksma_star_opts *opts, double *upp
 
     if (status == KOKSMA_OK) {
         offer_flat_boxes(&s.tree, corner);
-        search_all(&s);
+        status =
+            ki_climb(b, s.tree.ranks, opts->seed, PATIENCE * b->p.dim, climbed, &s);
+        if (status == KOKSMA_OK) search_all(&s);
         if (s.tree.no_memory) status = KOKSMA_ENOMEM;
         for (size_t i = 0; i < 2 * ki_team_threads(s.tree.team); i++)
             s.tree.work += s.worker[i].work;

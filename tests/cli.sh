@@ -44,6 +44,8 @@ t one-point 0 "$head
 t witness 0 "$head${tab}box${tab}inside${tab}corner
 1${tab}2${tab}0.75${tab}0.75${tab}closed${tab}1${tab}0.5${tab}0.5" "" \
     'echo .5 .5 | koksma-star -w'
+t search 0 "1${tab}2${tab}0.75${tab}1${tab}closed${tab}1${tab}0.5${tab}0.5" "" \
+    'echo .5 .5 | koksma-star -m search -s 7 -q -w'
 t on-the-faces 0 "2${tab}2${tab}1${tab}1" "" 'printf "0 0\n0 1\n" | koksma-star -q'
 t forms-of-text 0 "3${tab}2${tab}0.41666666666666663${tab}0.4166666666666667" "" \
     'printf "# x y\r\n  0x.8p0,0.5\r\n .25\t25e-2 # here\r\n1 , 1" | koksma-star -q'
@@ -180,7 +182,7 @@ t sobol-dim 2 "" "koksma-points: dimension 51: sobol has 1 to 50$try" \
     'koksma-points sobol -d 51'
 t too-far 2 "" "koksma-points: indices reach beyond 2^64 - 1$try" \
     'koksma-points halton --start 18446744073709551615 -n 2'
-has method 2 'takes auto, sweep, tree or dem, not "best"' 'echo .5 | koksma-star -m best'
+has method 2 '^koksma-star: -m takes .*, not "best"$' 'echo .5 | koksma-star -m best'
 has unknown-option 2 "Try 'koksma-star -h'." 'koksma-star --nonsense'
 has parameter 2 'f2 has a from 0 to 0.5, not 0.75' 'echo 0 0 | koksma-eval f2 -a .75'
 

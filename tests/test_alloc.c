@@ -57,21 +57,33 @@ static long exhaust(koksma_status (*job)(koksma_error *err))
     return 0;
 }
 
-static koksma_status star_job(koksma_error *err)
+static koksma_status star_by(koksma_star_method method, koksma_error *err)
 {
     static const double x[] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6};
+    koksma_star_opts opts = {.method = method, .threads = 1};
     koksma_star_result r = {0};
 
-    return koksma_star(&r, (koksma_points){x, 2, 3}, NULL, err);
+    return koksma_star(&r, (koksma_points){x, 2, 3}, &opts, err);
+}
+
+static koksma_status sweep_job(koksma_error *err)
+{
+    return star_by(KOKSMA_STAR_SWEEP, err);
+}
+
+static koksma_status tree_job(koksma_error *err)
+{
+    return star_by(KOKSMA_STAR_TREE, err);
 }
 
 static koksma_status dem_job(koksma_error *err)
 {
-    static const double x[] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6};
-    koksma_star_opts opts = {.method = KOKSMA_STAR_DEM};
-    koksma_star_result r = {0};
+    return star_by(KOKSMA_STAR_DEM, err);
+}
 
-    return koksma_star(&r, (koksma_points){x, 2, 3}, &opts, err);
+static koksma_status search_job(koksma_error *err)
+{
+    return star_by(KOKSMA_STAR_SEARCH, err);
 }
 
 static koksma_status gen_job(koksma_error *err)
@@ -177,8 +189,10 @@ static koksma_status fit_job(koksma_error *err)
 
 START_TEST(every_allocation_may_fail)
 {
-    ck_assert_int_ge(exhaust(star_job), 2);
+    ck_assert_int_ge(exhaust(sweep_job), 2);
+    ck_assert_int_ge(exhaust(tree_job), 20);
     ck_assert_int_ge(exhaust(dem_job), 2);
+    ck_assert_int_ge(exhaust(search_job), 7);
     ck_assert_int_ge(exhaust(gen_job), 5);
     ck_assert_int_ge(exhaust(sobol_job), 2);
     ck_assert_int_ge(exhaust(text_job), 4);
