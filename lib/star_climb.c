@@ -12,8 +12,8 @@
  *
  * A box is kept as cuts: the first cut[k] points along axis k are inside along it.
  * An open side ends at the first point behind its cut, or at 1, and a closed one at
- * the last point before it.  So a cut never stands between tied points, nor behind
- * points at 1 if the box is open. */
+ * the last point before it, or at 0.  So a cut never stands between tied points,
+ * nor behind points at 1 if the box is open. */
 
 /* FEW: sides that make a start.  TIRED: starts in vain after which the elite is
  * that of a lesser mountain, and forgotten.  BLOCK: points counted at once.
