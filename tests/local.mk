@@ -26,7 +26,7 @@ check_LTLIBRARIES += %D%/liboracle.la
 
 unit_tests = \
   %D%/test_curve %D%/test_extra %D%/test_fit %D%/test_gen %D%/test_gen_digits \
-  %D%/test_integrand %D%/test_io %D%/test_io_npy %D%/test_io_npy_bad \
+  %D%/test_facts %D%/test_integrand %D%/test_scene %D%/test_shapes %D%/test_io %D%/test_io_npy %D%/test_io_npy_bad \
   %D%/test_io_number %D%/test_io_reader %D%/test_io_table %D%/test_io_write \
   %D%/test_known %D%/test_num %D%/test_points %D%/test_rng %D%/test_star \
   %D%/test_star_methods %D%/test_star_search
@@ -95,7 +95,8 @@ clean-fuzz:
 
 # ---- Benches ---------------------------------------------------------------------
 
-benches = %D%/bench_gen %D%/bench_io %D%/bench_star %D%/bench_fit
+benches = %D%/bench_gen %D%/bench_io %D%/bench_star %D%/bench_fit \
+  %D%/bench_integrand
 EXTRA_PROGRAMS += $(benches)
 CLEANFILES     += $(benches)
 %C%_bench_gen_SOURCES  = %D%/bench_gen.c %D%/bench.h
@@ -106,6 +107,8 @@ CLEANFILES     += $(benches)
 %C%_bench_star_LDADD   = lib/libcore.la
 %C%_bench_fit_SOURCES  = %D%/bench_fit.c %D%/bench.h
 %C%_bench_fit_LDADD    = lib/libcore.la
+%C%_bench_integrand_SOURCES = %D%/bench_integrand.c %D%/bench.h
+%C%_bench_integrand_LDADD   = lib/libcore.la
 
 .PHONY: bench
 bench: $(benches)
