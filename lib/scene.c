@@ -16,6 +16,7 @@ enum { LIGHT, LIGHT_CHORD = LIGHT + 3, PATCH_CHORD };
 /* A step loses some 4 ulps of orthonormality. */
 enum { TIDY_EVERY = 32 };
 
+static const double TURN = 6.28318530717958647693;
 static const double VIEWED[3] = {0.0, 0.0, -1.0};
 
 const koksma_integrand_row *koksma_scene_find(const char *name)
@@ -51,13 +52,14 @@ static found follow(ki_walk w, const double *x, size_t steps, double albedo,
     double weight = first;
 
     for (size_t i = 0; i < steps; i++) {
+        bool counts;
+
         ki_walk_step(&w, x[2 * i], x[2 * i + 1]);
         if (i % TIDY_EVERY == TIDY_EVERY - 1) ki_walk_tidy(&w);
         weight *= albedo;
-        if ((i + 1 < steps && only_last) || !is_within(w.at, centre, chord))
-            continue;
-        out.sum += weight;
-        out.steps |= (size_t)1 << (only_last ? 0 : i);
+        counts = (i + 1 == steps || !only_last) & is_within(w.at, centre, chord);
+        out.sum += counts ? weight : 0.0;
+        out.steps |= (size_t)counts << (only_last ? 0 : i);
     }
     return out;
 }
@@ -101,7 +103,10 @@ static ki_walk start_on_light(const koksma_integrand *f, double u, double v)
 {
     const double *c = f->derived + LIGHT;
     double h = f->param[HEIGHT], level = sqrt((1.0 - h) * (1.0 + h));
-    double cosine = cos(f->param[AZIMUTH]), sine = sin(f->param[AZIMUTH]);
+    double cosine, sine;
+
+    ki_turn(&cosine, &sine, f->param[AZIMUTH] / TURN);
+
     ki_walk w = {{-c[0], -c[1], -c[2]},
                  {-sine, cosine, 0.0},
                  {-h * cosine, -h * sine, level}};
@@ -159,8 +164,11 @@ static void prepare(koksma_integrand *f)
 {
     double h = f->param[HEIGHT], level = sqrt((1.0 - h) * (1.0 + h));
 
-    f->derived[LIGHT] = level * cos(f->param[AZIMUTH]);
-    f->derived[LIGHT + 1] = level * sin(f->param[AZIMUTH]);
+    double cosine, sine;
+
+    ki_turn(&cosine, &sine, f->param[AZIMUTH] / TURN);
+    f->derived[LIGHT] = level * cosine;
+    f->derived[LIGHT + 1] = level * sine;
     f->derived[LIGHT + 2] = h;
     f->derived[LIGHT_CHORD] = 4.0 * f->param[CAP];
     f->derived[PATCH_CHORD] = 4.0 * f->param[PATCH];

@@ -36,9 +36,9 @@
  * patch, which is the same.  Bounce 0, what is seen of the light itself, is
  * nowhere counted.
  *
- * The side of the light's rim is decided in doubles, up to some 1e-15, through
- * sin, cos and sqrt.  Where albedo^n is below 1e-308, everything is 0.  All rows,
- * ended by NULL: */
+ * On which side of the light's rim a walk ends is decided in doubles, up to some
+ * 1e-15 a step, and the same way on every machine.  Where albedo^n is below 1e-308
+ * everything is 0.  All rows, ended by NULL: */
 extern const koksma_integrand_row *const koksma_scenes[];
 
 /* The row of that name, or NULL. */

@@ -500,14 +500,17 @@ static void add_path(table *t, koksma_curve *c, uint64_t seed, size_t replicate)
                                .replicate = replicate};
     const koksma_curve_row *row;
     size_t count;
+    koksma_integrand f2;
     koksma_gen *g;
 
     ck_assert_int_eq(koksma_gen_open(&g, koksma_gen_find("halton"), &o, NULL), 0);
     ck_assert_int_eq(koksma_gen_fill(g, x, 0, 1 << 17, NULL), 0);
     koksma_gen_close(g);
-    ck_assert_int_eq(koksma_integrand_eval(f, koksma_integrand_find("f2"), 0.0,
-                                           (koksma_points){x, 1 << 17, 2}, NULL),
+    ck_assert_int_eq(koksma_integrand_make(&f2, NULL, koksma_integrand_find("f2"),
+                                           0, NULL, NULL),
                      0);
+    ck_assert_int_eq(
+        koksma_integrand_eval(f, &f2, (koksma_points){x, 1 << 17, 2}, NULL), 0);
     koksma_curve_begin(c, 0.5);
     koksma_curve_add(c, f, 1, 1 << 17);
     ck_assert_int_eq(koksma_curve_rows(c, &row, &count, NULL), 0);
