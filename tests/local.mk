@@ -21,14 +21,14 @@ EXTRA_DIST += $(structure_scripts) %D%/replay.sh %D%/corpus
 if HAVE_CHECK
 check_LTLIBRARIES += %D%/liboracle.la
 %C%_liboracle_la_SOURCES = \
-  %D%/oracle.c %D%/oracle.h %D%/gen_fixture.h %D%/io_fixture.h \
+  %D%/oracle.c %D%/oracle.h %D%/gen_fixture.h %D%/integrand_fixture.h %D%/io_fixture.h \
   %D%/npy_fixture.h
 
 unit_tests = \
   %D%/test_curve %D%/test_extra %D%/test_fit %D%/test_gen %D%/test_gen_digits \
-  %D%/test_facts %D%/test_integrand %D%/test_scene %D%/test_shapes %D%/test_io %D%/test_io_npy %D%/test_io_npy_bad \
+  %D%/test_facts %D%/test_fractals %D%/test_integrand %D%/test_io %D%/test_io_npy %D%/test_io_npy_bad \
   %D%/test_io_number %D%/test_io_reader %D%/test_io_table %D%/test_io_write \
-  %D%/test_known %D%/test_num %D%/test_points %D%/test_rng %D%/test_star \
+  %D%/test_known %D%/test_num %D%/test_points %D%/test_rng %D%/test_scene %D%/test_shapes %D%/test_star \
   %D%/test_star_methods %D%/test_star_search
 LDADD = %D%/liboracle.la lib/libcore.la $(CHECK_LIBS)
 
