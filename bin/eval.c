@@ -51,8 +51,7 @@ typedef struct job {
     size_t worst_hits, worst_walks;
 } job;
 
-/* ---- The command line ----------------------------------------------------------
- */
+/* ---- The command line -------------------------------------------------------- */
 
 static const koksma_integrand_row *find_row(const char *name)
 {
@@ -113,8 +112,7 @@ static void apply_bounces(request *r)
     r->dim = r->row->dim_least + 2 * (r->bounces - 1);
 }
 
-/* ---- --list --------------------------------------------------------------------
- */
+/* ---- --list ------------------------------------------------------------------ */
 
 static void print_params(const koksma_integrand_row *row, const double *param,
                          const char *between)
@@ -163,8 +161,7 @@ _Noreturn static void list_integrands(const request *r)
     cli_finish(CLI_DONE);
 }
 
-/* ---- Values --------------------------------------------------------------------
- */
+/* ---- Values ------------------------------------------------------------------ */
 
 /* What is known of the values: the tools further down need not be told. */
 static void print_comment(const job *j, const char *about)
@@ -232,8 +229,7 @@ static void eval_set(job *j, cli_input *input)
     }
 }
 
-/* ---- Scenes of which too little is seen
- * ------------------------------------------ */
+/* ---- Scenes of which too little is seen -------------------------------------- */
 
 static void count_hits(job *j)
 {
@@ -254,8 +250,7 @@ static void note_poor_sets(const job *j)
              j->poor, j->sets, HITS_LEAST, j->worst_hits, j->worst_walks);
 }
 
-/* ---- The tool ------------------------------------------------------------------
- */
+/* ---- The tool ---------------------------------------------------------------- */
 
 /* The points say the dimension, unless it was told. */
 static void begin(job *j, const request *r, const cli_input *input, size_t columns)

@@ -118,8 +118,7 @@ koksma_status koksma_integrand_eval(double *out, const koksma_integrand *f,
     return KOKSMA_OK;
 }
 
-/* ---- What the kernels share ----------------------------------------------------
- */
+/* ---- What the kernels share -------------------------------------------------- */
 
 koksma_facts ki_facts_smooth(double integral, double error)
 {

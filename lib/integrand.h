@@ -55,8 +55,7 @@ typedef struct koksma_integrand {
 koksma_status koksma_integrand_eval(double *out, const koksma_integrand *f,
                                     koksma_points p, koksma_error *err);
 
-/* ---- What is known of one ------------------------------------------------------
- */
+/* ---- What is known of one ---------------------------------------------------- */
 
 /* NaN stands for what is not known.  Infinity is proven.  Where there is no jump,
  * jump, area, extent and axes are 0. */
@@ -76,8 +75,7 @@ typedef struct koksma_facts {
     double variation; /* Hardy and Krause's, anchored at 1 */
 } koksma_facts;
 
-/* ---- The table -----------------------------------------------------------------
- */
+/* ---- The table --------------------------------------------------------------- */
 
 typedef enum koksma_param_kind {
     KOKSMA_CLOSED, /* a number of [least, most] */

@@ -17,8 +17,7 @@ typedef struct factor {
     double variation;
 } factor;
 
-/* ---- A product's facts
- * ----------------------------------------------------------- */
+/* ---- A product's facts ------------------------------------------------------- */
 
 /* What is known of the product of the first coordinates. */
 typedef struct tally {
@@ -60,8 +59,7 @@ static koksma_facts facts_power(factor g, size_t dim)
     return facts_of(t, dim);
 }
 
-/* ---- x -------------------------------------------------------------------------
- */
+/* ---- x ----------------------------------------------------------------------- */
 
 static double product(const koksma_integrand *f, const double *x)
 {
@@ -85,8 +83,7 @@ static void product_facts(koksma_facts *out, const koksma_integrand *f)
     out->error = 0.0;
 }
 
-/* ---- Peaks: c and w ------------------------------------------------------------
- */
+/* ---- Peaks: c and w ---------------------------------------------------------- */
 
 enum { C, W };
 
@@ -166,8 +163,7 @@ static void continuous_facts(koksma_facts *out, const koksma_integrand *f)
                        f->dim);
 }
 
-/* ---- exp(c x), cut off beyond w in the first two
- * --------------------------------- */
+/* ---- exp(c x), cut off beyond w in the first two ----------------------------- */
 
 static size_t cut_axes(const koksma_integrand *f)
 {
@@ -216,8 +212,7 @@ static void discontinuous_facts(koksma_facts *out, const koksma_integrand *f)
     out->pieces = 2.0;
 }
 
-/* ---- Rows ----------------------------------------------------------------------
- */
+/* ---- Rows -------------------------------------------------------------------- */
 
 const koksma_integrand_row ki_row_product = {
     .name = "product",

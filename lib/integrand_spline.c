@@ -38,15 +38,11 @@ static double mean_below(double t, size_t dim)
     return sum;
 }
 
-/* From the side on which the share is the smaller: dim - t is exact
- * there. */
+/* dim - t is rounded for t below the middle alone, where P(s > t) is no less than
+ * 1/2, and by no more than dim half-ulps. */
 double ki_sum_share_above(double t, size_t dim)
 {
-    double middle = (double)dim / 2.0;
-
-    if (t == middle) return 0.5;
-    return t > middle ? share_below((double)dim - t, dim)
-                      : 1.0 - share_below(t, dim);
+    return t == (double)dim / 2.0 ? 0.5 : share_below((double)dim - t, dim);
 }
 
 double ki_sum_covariance(double t, size_t dim)

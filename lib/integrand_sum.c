@@ -63,8 +63,7 @@ static koksma_range range(const koksma_integrand *f, const double *lower,
                           jump != 0.0 && some_above && !all_above};
 }
 
-/* ---- Facts ---------------------------------------------------------------------
- */
+/* ---- Facts ------------------------------------------------------------------- */
 
 /* The area is |grad s| times the density of s, and each projected area is that
  * density. */
@@ -133,8 +132,7 @@ static void facts_simplex(koksma_facts *out, const koksma_integrand *f)
     out->variance = out->integral * (1.0 - out->integral);
 }
 
-/* ---- Rows ----------------------------------------------------------------------
- */
+/* ---- Rows -------------------------------------------------------------------- */
 
 static void set(koksma_integrand *f, double slope, double jump, double threshold)
 {

@@ -19,8 +19,7 @@ static double sum_of(const koksma_integrand *f, const double *x)
     return sum;
 }
 
-/* ---- cos(2 pi w + c s)
- * ----------------------------------------------------------- */
+/* ---- cos(2 pi w + c s) ------------------------------------------------------- */
 
 static double oscillatory(const koksma_integrand *f, const double *x)
 {
@@ -48,8 +47,7 @@ static void oscillatory_facts(koksma_facts *out, const koksma_integrand *f)
         0.5 + 0.5 * wave_mean(2.0 * phase, 2.0 * c, f->dim) - mean * mean;
 }
 
-/* ---- (1 + c s)^-(dim+1)
- * ---------------------------------------------------------- */
+/* ---- (1 + c s)^-(dim+1) ------------------------------------------------------ */
 
 static double corner_peak(const koksma_integrand *f, const double *x)
 {
@@ -82,8 +80,7 @@ static void corner_peak_facts(koksma_facts *out, const koksma_integrand *f)
     out->variation = -expm1(-(double)(dim + 1) * log1p(c * (double)dim));
 }
 
-/* ---- Rows ----------------------------------------------------------------------
- */
+/* ---- Rows -------------------------------------------------------------------- */
 
 const koksma_integrand_row ki_row_oscillatory = {
     .name = "oscillatory",

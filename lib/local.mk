@@ -17,7 +17,7 @@ noinst_LTLIBRARIES = %D%/libcore.la
   %D%/part.c %D%/part.h \
   %D%/points.c %D%/points.h \
   %D%/rng.c %D%/rng.h \
-  %D%/scene.c %D%/scene.h %D%/scene_kernels.h %D%/scene_walk.c \
+  %D%/scene.c %D%/scene.h %D%/scene_kernels.h \
   %D%/star.c %D%/star.h %D%/star_kernels.h %D%/star_sweep.c \
   %D%/star_best.c %D%/star_bound.c %D%/star_bound_closed.c \
   %D%/star_bound_open.c %D%/star_cell.c %D%/star_climb.c \

@@ -13,9 +13,6 @@ enum { ALBEDO, CAP, HEIGHT, AZIMUTH, PATCH }; /* param */
  * the squares of their chords. */
 enum { LIGHT, LIGHT_CHORD = LIGHT + 3, PATCH_CHORD };
 
-/* A step loses some 4 ulps of orthonormality. */
-enum { TIDY_EVERY = 32 };
-
 static const double TURN = 6.28318530717958647693;
 static const double VIEWED[3] = {0.0, 0.0, -1.0};
 
@@ -55,7 +52,6 @@ static found follow(ki_walk w, const double *x, size_t steps, double albedo,
         bool counts;
 
         ki_walk_step(&w, x[2 * i], x[2 * i + 1]);
-        if (i % TIDY_EVERY == TIDY_EVERY - 1) ki_walk_tidy(&w);
         weight *= albedo;
         counts = (i + 1 == steps || !only_last) & is_within(w.at, centre, chord);
         out.sum += counts ? weight : 0.0;
@@ -142,8 +138,7 @@ static size_t shoot_sum_piece(const koksma_integrand *f, const double *x)
     return shoot(f, x, false).steps;
 }
 
-/* ---- Facts ---------------------------------------------------------------------
- */
+/* ---- Facts ------------------------------------------------------------------- */
 
 static bool is_shooting(const koksma_integrand *f)
 {
@@ -209,8 +204,7 @@ static void facts(koksma_facts *out, const koksma_integrand *f)
     if (on_axis && !shooting && steps == 1) facts_on_axis(out);
 }
 
-/* ---- Rows ----------------------------------------------------------------------
- */
+/* ---- Rows -------------------------------------------------------------------- */
 
 /* A sum has a piece for every set of its bounces, and size_t has the bits. */
 enum { BOUNCES_MOST = 1000, TERMS_MOST = 8 * sizeof(size_t) - 1 };

@@ -8,8 +8,7 @@
 #include "integrand_fixture.h"
 #include "oracle.h"
 
-/* ---- Integral and variance by nested quadrature
- * ------------------------------------ */
+/* ---- Integral and variance by nested quadrature ------------------------------ */
 
 enum { NODES = 12, BREAKS_MOST = 16 };
 
@@ -175,8 +174,7 @@ START_TEST(moments_of_products)
 }
 END_TEST
 
-/* ---- Errors by exact integers and long doubles
- * ------------------------------------- */
+/* ---- Errors by exact integers and long doubles ------------------------------- */
 
 static void check_error(const koksma_facts *k, const char *name, size_t dim,
                         long double exact)
@@ -266,8 +264,7 @@ START_TEST(errors_of_closed_forms)
 }
 END_TEST
 
-/* ---- Area, extent and jumps
- * ------------------------------------------------------- */
+/* ---- Area, extent and jumps -------------------------------------------------- */
 
 /* Areas are derivatives: of a ball's volume by r, and of a half-space's by c, which
  * moves its face sqrt(dim) times as far. */
@@ -433,8 +430,7 @@ START_TEST(no_jumps)
 }
 END_TEST
 
-/* ---- Variation
- * -------------------------------------------------------------------- */
+/* ---- Variation --------------------------------------------------------------- */
 
 static void check_variation(const char *name, size_t dim, const double *param,
                             size_t k)

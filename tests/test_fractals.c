@@ -6,8 +6,7 @@
 #include "integrand_fixture.h"
 #include "oracle.h"
 
-/* ---- Koch's snowflake as a polygon
- * ----------------------------------------------- */
+/* ---- Koch's snowflake as a polygon ------------------------------------------- */
 
 enum { EDGES_MOST = 3 << 14 };
 
@@ -158,8 +157,7 @@ START_TEST(share_of_koch)
 }
 END_TEST
 
-/* ---- Fractals, counted
- * ----------------------------------------------------------- */
+/* ---- Fractals, counted ------------------------------------------------------- */
 
 /* The subcells' centres of cell c of the 5^level grid: how many are in. */
 static size_t centres_inside(const koksma_integrand *f, size_t c, size_t level,
@@ -251,6 +249,23 @@ START_TEST(patterns_of_fractals)
 }
 END_TEST
 
+/* The far faces belong to the last cells. */
+START_TEST(faces_of_fractals)
+{
+    koksma_integrand f = fixture_make(NULL, "fractal2", 2, NULL);
+
+    for (int i = 0; i <= 400; i++) {
+        double y = i / 400.0, on[] = {1.0, y}, near[] = {1.0 - 0x1p-53, y};
+
+        ck_assert(f.value(&f, on) == f.value(&f, near));
+        on[0] = near[0] = y;
+        on[1] = 1.0;
+        near[1] = 1.0 - 0x1p-53;
+        ck_assert(f.value(&f, on) == f.value(&f, near));
+    }
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("fractals");
@@ -263,5 +278,6 @@ int main(void)
     tcase_add_test(tc, share_of_koch);
     tcase_add_test(tc, cells_of_fractals);
     tcase_add_test(tc, patterns_of_fractals);
+    tcase_add_test(tc, faces_of_fractals);
     return oracle_run(suite);
 }

@@ -256,8 +256,7 @@ START_TEST(jumps)
 }
 END_TEST
 
-/* ---- The table and its calls ---------------------------------------------------
- */
+/* ---- The table and its calls ------------------------------------------------- */
 
 START_TEST(table_of_integrands)
 {

@@ -6,8 +6,7 @@
 #include "integrand_fixture.h"
 #include "oracle.h"
 
-/* ---- Ranges
- * ---------------------------------------------------------------------- */
+/* ---- Ranges ------------------------------------------------------------------ */
 
 /* Boxes whose corners are multiples of 1/GRID, and points in units of 1/FINE. */
 enum { GRID = 16, FINE = 4 * GRID };
@@ -158,8 +157,25 @@ START_TEST(cut_cells_counted)
 }
 END_TEST
 
-/* ---- Sides
- * ----------------------------------------------------------------------- */
+/* A box with its corner on the grid cuts what reaches across. */
+START_TEST(cut_by_a_box)
+{
+    double c = 5.0 / GRID;
+    koksma_integrand f = fixture_make(NULL, "box", 2, &c);
+
+    for (size_t code = 0; code < 4 * GRID * GRID; code++) {
+        size_t low[] = {code % GRID, code / GRID % GRID};
+        size_t size = 1 + code / GRID / GRID,
+               high[] = {low[0] + size, low[1] + size};
+
+        if (high[0] > GRID || high[1] > GRID) continue;
+        ck_assert(range_of(&f, low, high).cut ==
+                  (low[0] < 5 && low[1] < 5 && (high[0] > 5 || high[1] > 5)));
+    }
+}
+END_TEST
+
+/* ---- Sides ------------------------------------------------------------------- */
 
 /* Whether m, in units of 2^-30 round the centre, is in the ball, exactly. */
 START_TEST(sides_of_the_ball)
@@ -191,20 +207,26 @@ START_TEST(sides_of_the_ball)
 }
 END_TEST
 
+/* 3, 4, 5 in units that make the squares longer than a double. */
 START_TEST(touching_the_ball)
 {
-    double r = 0.3125; /* 3, 4, 5 */
-    koksma_integrand f = fixture_make(NULL, "ball", 2, &r);
-    const double on[2] = {0.5 + 0.1875, 0.5 - 0.25};
+    for (uint64_t round = 0; round < 200; round++) {
+        oracle_rng rng = oracle_rng_start(oracle_seed(), round);
+        double unit = ldexp(1.0 + (double)oracle_below(&rng, 1 << 26), -30);
+        double r = 5.0 * unit, on[] = {0.5 + 3.0 * unit, 0.5 - 4.0 * unit};
+        koksma_integrand f;
 
-    for (int k = 0; k < 2; k++) {
-        double x[2] = {on[0], on[1]};
+        if (r > 0.5 || r < 0x1p-20) continue;
+        f = fixture_make(NULL, "ball", 2, &r);
+        for (int k = 0; k < 2; k++) {
+            double x[] = {on[0], on[1]};
 
-        ck_assert(f.value(&f, x) == 1.0);
-        x[k] = nextafter(on[k], 0.5);
-        ck_assert(f.value(&f, x) == 1.0);
-        x[k] = nextafter(on[k], k == 0 ? 1.0 : 0.0);
-        ck_assert(f.value(&f, x) == 0.0);
+            ck_assert(f.value(&f, x) == 1.0);
+            x[k] = nextafter(on[k], 0.5);
+            ck_assert(f.value(&f, x) == 1.0);
+            x[k] = nextafter(on[k], k == 0 ? 1.0 : 0.0);
+            ck_assert(f.value(&f, x) == 0.0);
+        }
     }
 }
 END_TEST
@@ -244,6 +266,32 @@ START_TEST(sides_of_sums)
 }
 END_TEST
 
+/* Coordinates in units of 2^-53, whose sum is an integer: on the plane, and a unit
+ * off it, which a sum of 31 doubles cannot tell. */
+START_TEST(sides_in_31_dimensions)
+{
+    const long unit = 1L << 53;
+    double half = 0.5, x[31];
+    koksma_integrand f = fixture_make(NULL, "halfspace", 31, &half);
+
+    for (uint64_t round = 0; round < 2000 * oracle_scale(); round++) {
+        oracle_rng rng = oracle_rng_start(oracle_seed(), round);
+        long rest = 31 * (unit / 2), off = (long)(round % 5) - 2;
+
+        for (int k = 0; k < 30; k++) {
+            long m = (long)(oracle_dyadic(&rng, 53) * 0x1p53);
+
+            x[k] = (double)m / (double)unit;
+            rest -= m;
+        }
+        if (rest < 2 || rest > unit - 2) continue;
+        x[30] = (double)(rest + off) / (double)unit;
+        ck_assert_msg((f.value(&f, x) == 1.0) == (off > 0), "round %ju",
+                      (uintmax_t)round);
+    }
+}
+END_TEST
+
 START_TEST(sides_of_boxes)
 {
     double c = 0.3, w[] = {1.0, 0.3};
@@ -262,8 +310,7 @@ START_TEST(sides_of_boxes)
 }
 END_TEST
 
-/* ---- Extremes
- * --------------------------------------------------------------------- */
+/* ---- Extremes ---------------------------------------------------------------- */
 
 START_TEST(corners_of_the_cube)
 {
@@ -297,6 +344,7 @@ int main(void)
     tcase_add_test(tc, ranges_contain_values);
     tcase_add_test(tc, ranges_are_tight);
     tcase_add_test(tc, cut_cells_counted);
+    tcase_add_test(tc, cut_by_a_box);
 
     tc = tcase_create("sides");
     suite_add_tcase(suite, tc);
@@ -304,6 +352,7 @@ int main(void)
     tcase_add_test(tc, sides_of_the_ball);
     tcase_add_test(tc, touching_the_ball);
     tcase_add_test(tc, sides_of_sums);
+    tcase_add_test(tc, sides_in_31_dimensions);
     tcase_add_test(tc, sides_of_boxes);
     tcase_add_test(tc, corners_of_the_cube);
 
