@@ -245,9 +245,14 @@ static void count_hits(job *j)
 static void note_poor_sets(const job *j)
 {
     if (j->poor == 0 || koksma_scene_find(j->row->name) == NULL) return;
-    cli_note("under-resolved: %zu of %zu sets with fewer than %d hits; the fewest "
-             "are %zu of %zu walks",
-             j->poor, j->sets, HITS_LEAST, j->worst_hits, j->worst_walks);
+    if (j->sets == 1)
+        cli_note("under-resolved: %zu of %zu walks hit", j->worst_hits,
+                 j->worst_walks);
+    else
+        cli_note(
+            "under-resolved: %zu of %zu sets have fewer than %d hits; in one of "
+            "them %zu of %zu walks hit",
+            j->poor, j->sets, HITS_LEAST, j->worst_hits, j->worst_walks);
 }
 
 /* ---- The tool ---------------------------------------------------------------- */

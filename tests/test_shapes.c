@@ -270,16 +270,16 @@ END_TEST
  * off it, which a sum of 31 doubles cannot tell. */
 START_TEST(sides_in_31_dimensions)
 {
-    const long unit = 1L << 53;
+    const int64_t unit = INT64_C(1) << 53;
     double half = 0.5, x[31];
     koksma_integrand f = fixture_make(NULL, "halfspace", 31, &half);
 
     for (uint64_t round = 0; round < 2000 * oracle_scale(); round++) {
         oracle_rng rng = oracle_rng_start(oracle_seed(), round);
-        long rest = 31 * (unit / 2), off = (long)(round % 5) - 2;
+        int64_t rest = 31 * (unit / 2), off = (int64_t)(round % 5) - 2;
 
         for (int k = 0; k < 30; k++) {
-            long m = (long)(oracle_dyadic(&rng, 53) * 0x1p53);
+            int64_t m = (int64_t)(oracle_dyadic(&rng, 53) * 0x1p53);
 
             x[k] = (double)m / (double)unit;
             rest -= m;
