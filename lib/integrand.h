@@ -93,7 +93,7 @@ typedef struct koksma_param {
  *
  *     f2            a s + (1 - 2a) [s > 1]            dim 2, 0 <= a <= 1/2
  *     f3            a s + (0.6 - 1.8a) [s > 1]        dim 3, 0 <= a <= 1/3
- *     halfspace     [s > c dim]
+ *     halfspace     [s > c dim]                       c dim rounded
  *     simplex       [s <= 1]
  *     mixture       2a s/dim + 2(1 - a) [s > dim/2]
  *     sum           s
@@ -117,9 +117,9 @@ typedef struct koksma_param {
  * Shapes:
  *
  *     ball          [|x - (1/2,...,1/2)| <= r]
- *     koch          1 inside of Koch's snowflake: equilateral triangle of that
- *                   side, round (1/2,1/2), its sides normal to the angle turn
- *                   - pi/2, which grow smaller triangles for ever
+ *     koch          1 inside of Koch's snowflake: an equilateral triangle round
+ *                   (1/2,1/2) with that side, one facing the angle turn - pi/2,
+ *                   whose sides grow smaller triangles for ever
  *     fractal2, fractal3
  *                   in each cell of a 5^dim grid m subcells, drawn at random, are
  *                   divided again and so on; half of the others, rounded down,

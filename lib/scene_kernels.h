@@ -12,10 +12,10 @@ typedef struct ki_walk {
 } ki_walk;
 
 /* The cosine and the sine of 2 pi v, 0 <= v <= 1, within 2^-49, and the same on
- * every machine.  v - 1/2 is exact enough that a quarter of its angle is off by
- * 2^-54 at most; within pi/4 the first terms that Taylor's series leave out are
- * below 2^-54; doubling the angle twice makes four errors of one.  No branch
- * depends on v, which no processor could foretell. */
+ * every machine.  A quarter of the angle of v - 1/2 is within pi/4 and off by some
+ * 2^-53; there the first terms that Taylor's series leave out are below 2^-54;
+ * doubling the angle twice makes four errors of one.  Branches on v, which no
+ * processor could foretell, would cost more than that. */
 static inline void ki_turn(double *cosine, double *sine, double v)
 {
     static const double c[] = {

@@ -428,7 +428,7 @@ START_TEST(refused)
     check_refused("sphere", 2, 0.5, (double)NAN, KOKSMA_EDOMAIN, "nan");
     check_refused("sphere", 3, 0.5, 0.2, KOKSMA_EINVAL, "an even number");
     check_refused("sphere-shoot", 2, 0.5, 0.2, KOKSMA_EINVAL, "from 4 to");
-    check_refused("sphere-sum", 128, 0.5, 0.2, KOKSMA_EINVAL, "from 2 to 126");
+    check_refused("sphere-sum", 128, 0.5, 0.2, KOKSMA_EINVAL, "from 2 to");
     ck_assert_ptr_null(koksma_scene_find("cube"));
 }
 END_TEST
