@@ -15,10 +15,10 @@
  *
  * A walk goes from point to point in directions drawn in proportion to their
  * cosine.  Two coordinates (u, v) make a step: its cosine squared is u and its
- * azimuth 2 pi v, in the frame of the point where it starts; the next point is
- * then uniform on the sphere wherever that was.  The frame is carried along by
- * parallel transport.  One frame for all points would make every step forget the
- * walk before it, and a walk of any length as easy as two dimensions; one that is
+ * azimuth 2 pi v against the direction in which the walk has come, which parallel
+ * transport carries along; the next point is then uniform on the sphere wherever
+ * the last was.  One frame for all points would make every step forget the walk
+ * before it, and a walk of any length as easy as two dimensions; a frame that is
  * computed from the point is discontinuous somewhere.
  *
  *     sphere            gathering, n bounces, dim 2n: from the viewed point;

@@ -5,10 +5,11 @@
 
 /* Private: walks inside of the unit sphere. */
 
-/* A point of the sphere, and two directions along it; all three are orthonormal. */
+/* A point of the sphere, the direction in which it was reached, carried on to the
+ * tangent plane, and the one across; all three are orthonormal. */
 typedef struct ki_walk {
     double at[3];
-    double s[3], t[3];
+    double ahead[3], aside[3];
 } ki_walk;
 
 /* The cosine and the sine of 2 pi v, 0 <= v <= 1, within 2^-49, and the same on
@@ -41,15 +42,14 @@ static inline void ki_turn(double *cosine, double *sine, double v)
 }
 
 /* Go to the other end of the chord that starts with a cosine of sqrt(u) against
- * the normal and an azimuth of 2 pi v from s towards t, and carry s and t along.
+ * the normal and an azimuth of 2 pi v from `ahead` towards `aside`.
  *
  * With theta the angle against the normal -y, the chord 2 cos theta (-cos theta y +
  * sin theta d) ends at y' = -cos 2theta y + sin 2theta d; cos 2theta = 2u - 1 is
  * uniform on [-1,1] when u is on [0,1], and so y' on the sphere (Archimedes).
  *
- * The rotation of y to y' in the plane of y and d takes d to d - (sin 2theta y +
- * 2u d) and leaves what is normal to both as it is; s and t have the components
- * cos 2 pi v and sin 2 pi v along d.
+ * The rotation of y to y' in the plane of y and d takes d, the new way ahead, to
+ * -sin 2theta y - cos 2theta d, and leaves what is across as it is.
  *
  * Rounding makes the three less orthonormal, by less than 1e-15 a step. */
 static inline void ki_walk_step(ki_walk *w, double u, double v)
@@ -58,12 +58,11 @@ static inline void ki_walk_step(ki_walk *w, double u, double v)
 
     ki_turn(&cosine, &sine, v);
     for (int i = 0; i < 3; i++) {
-        double y = w->at[i], d = cosine * w->s[i] + sine * w->t[i];
-        double back = across * y + 2.0 * u * d;
+        double y = w->at[i], d = cosine * w->ahead[i] + sine * w->aside[i];
 
+        w->aside[i] = cosine * w->aside[i] - sine * w->ahead[i];
+        w->ahead[i] = -across * y - along * d;
         w->at[i] = across * d - along * y;
-        w->s[i] -= cosine * back;
-        w->t[i] -= sine * back;
     }
 }
 
