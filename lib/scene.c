@@ -10,8 +10,8 @@
 enum { ALBEDO, CAP, HEIGHT, AZIMUTH, PATCH }; /* param */
 
 /* derived: the light's centre; 4 times its share and that of the patch, which are
- * the squares of their chords. */
-enum { LIGHT, LIGHT_CHORD = LIGHT + 3, PATCH_CHORD };
+ * the squares of their chords; of the azimuth, and of the latitude. */
+enum { LIGHT, LIGHT_CHORD = LIGHT + 3, PATCH_CHORD, COSINE, SINE, LEVEL };
 
 static const double TURN = 6.28318530717958647693;
 static const double VIEWED[3] = {0.0, 0.0, -1.0};
@@ -98,14 +98,11 @@ static size_t gather_sum_piece(const koksma_integrand *f, const double *x)
 static ki_walk start_on_light(const koksma_integrand *f, double u, double v)
 {
     const double *c = f->derived + LIGHT;
-    double h = f->param[HEIGHT], level = sqrt((1.0 - h) * (1.0 + h));
-    double cosine, sine;
-
-    ki_turn(&cosine, &sine, f->param[AZIMUTH] / TURN);
-
+    double h = f->param[HEIGHT], cosine = f->derived[COSINE],
+           sine = f->derived[SINE];
     ki_walk w = {{-c[0], -c[1], -c[2]},
                  {-sine, cosine, 0.0},
-                 {-h * cosine, -h * sine, level}};
+                 {-h * cosine, -h * sine, f->derived[LEVEL]}};
 
     ki_walk_step(&w, 1.0 - f->param[CAP] * u, v);
     return w;
@@ -158,10 +155,12 @@ double koksma_scene_neumann(const koksma_integrand *f)
 static void prepare(koksma_integrand *f)
 {
     double h = f->param[HEIGHT], level = sqrt((1.0 - h) * (1.0 + h));
-
     double cosine, sine;
 
     ki_turn(&cosine, &sine, f->param[AZIMUTH] / TURN);
+    f->derived[COSINE] = cosine;
+    f->derived[SINE] = sine;
+    f->derived[LEVEL] = level;
     f->derived[LIGHT] = level * cosine;
     f->derived[LIGHT + 1] = level * sine;
     f->derived[LIGHT + 2] = h;
