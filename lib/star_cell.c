@@ -311,12 +311,11 @@ static bool enter_root(ki_worker *w)
     return true;
 }
 
-koksma_status ki_worker_begin(ki_worker *w, ki_tree *tree, bool closed)
+koksma_status ki_worker_begin(ki_worker *w, ki_run *run, const ki_ranks *ranks)
 {
-    const ki_ranks *ranks = &tree->ranks[closed];
     size_t n = ranks->n, dim = ranks->dim;
 
-    *w = (ki_worker){.tree = tree, .ranks = ranks};
+    *w = (ki_worker){.run = run, .ranks = ranks};
     w->standing = calloc(n, sizeof *w->standing);
     w->new_low = ki_alloc(dim, sizeof *w->new_low);
     w->new_high = ki_alloc(dim, sizeof *w->new_high);
