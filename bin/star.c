@@ -8,7 +8,7 @@
 #include "star.h"
 
 static const cli_option options[] = {
-    {'m', "method", "METHOD", "auto, sweep or tree (default auto)"},
+    {'m', "method", "METHOD", "auto, sweep, tree or lines (default auto)"},
     {'e', "tolerance", "E", "stop at upper <= (1+E) lower (default 0: exact)"},
     {'t', "time", "SECONDS", "stop then, with the interval so far"},
     {'w', "witness", NULL, "write the box that proves the lower bound"},
@@ -59,12 +59,16 @@ static koksma_star_method read_method(const char *text)
     if (strcmp(text, "auto") == 0) return KOKSMA_STAR_AUTO;
     if (strcmp(text, "sweep") == 0) return KOKSMA_STAR_SWEEP;
     if (strcmp(text, "tree") == 0) return KOKSMA_STAR_TREE;
-    cli_usage("-m takes auto, sweep or tree, not \"%s\"", text);
+    if (strcmp(text, "lines") == 0) return KOKSMA_STAR_LINES;
+    cli_usage("-m takes auto, sweep, tree or lines, not \"%s\"", text);
 }
 
 /* Returns whether the set was finished. */
 static bool measure(cli_input *input, const koksma_set *set, star_options *o)
 {
+    static const char *const names[][2] = {[KOKSMA_STAR_SWEEP] = {"sweep", "corners"},
+                                           [KOKSMA_STAR_TREE] = {"tree", "list entries"},
+                                           [KOKSMA_STAR_LINES] = {"lines", "lines"}};
     koksma_star_result r = {.witness.corner = malloc(set->dim * sizeof(double))};
     koksma_error err;
     koksma_status status;
@@ -80,8 +84,7 @@ static bool measure(cli_input *input, const koksma_set *set, star_options *o)
     if (status == KOKSMA_STOPPED) cli_note("%s", err.text);
     if (o->verbose)
         cli_note("%zu points, %zu coordinates: %s, %.3g %s, %.2f s", set->n,
-                 set->dim, r.method == KOKSMA_STAR_SWEEP ? "sweep" : "tree", r.work,
-                 r.method == KOKSMA_STAR_SWEEP ? "corners" : "list entries",
+                 set->dim, names[r.method][0], r.work, names[r.method][1],
                  cli_seconds(&o->watch));
     free(r.witness.corner);
     return status == KOKSMA_OK;

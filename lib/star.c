@@ -48,6 +48,9 @@ static koksma_status check_opts(const koksma_star_opts *opts, koksma_points p,
                        opts->tolerance);
     if (p.n >= (size_t)1 << 31)
         return ki_fail(err, KOKSMA_EINVAL, 0, "%zu points: 2^31 are too many", p.n);
+    if (opts->method == KOKSMA_STAR_LINES && p.dim != 2 && p.dim != 3)
+        return ki_fail(err, KOKSMA_EINVAL, 0,
+                       "filtered lines take 2 or 3 coordinates, not %zu", p.dim);
     return KOKSMA_OK;
 }
 
@@ -71,6 +74,8 @@ koksma_status koksma_star(koksma_star_result *out, koksma_points p,
     r.method = choose(opts, p);
     if (r.method == KOKSMA_STAR_SWEEP)
         status = ki_star_sweep(&best, opts, &r.value.upper, &r.work, &stopped);
+    else if (r.method == KOKSMA_STAR_LINES)
+        status = ki_star_lines(&best, opts, &r.value.upper, &r.work, &stopped);
     else
         status = ki_star_tree(&best, opts, &r.value.upper, &r.work, &stopped);
     if (status != KOKSMA_OK) {

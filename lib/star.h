@@ -30,7 +30,8 @@ typedef enum koksma_star_method {
     KOKSMA_STAR_AUTO,  /* the sweep for dim 1 and up to 2^20 corners, else the tree
                         */
     KOKSMA_STAR_SWEEP, /* visit every corner that a point can hold up */
-    KOKSMA_STAR_TREE   /* branch and bound */
+    KOKSMA_STAR_TREE,  /* branch and bound */
+    KOKSMA_STAR_LINES  /* divide and conquer with filtered lines, dim 2 and 3 */
 } koksma_star_method;
 
 typedef struct koksma_star_result {

@@ -1,6 +1,8 @@
 #ifndef KI_STAR_KERNELS_H
 #define KI_STAR_KERNELS_H
 
+#include <stdint.h>
+
 #include "num_kernels.h"
 #include "star.h"
 
@@ -45,5 +47,20 @@ koksma_status ki_star_sweep(ki_best *b, const koksma_star_opts *opts, double *up
  * Returns KOKSMA_OK, also when stopped, or KOKSMA_ENOMEM. */
 koksma_status ki_star_tree(ki_best *b, const koksma_star_opts *opts, double *upper,
                            double *work, bool *stopped);
+
+/* Divide and conquer with filtered lines, for dim 2 and 3; else the same. */
+koksma_status ki_star_lines(ki_best *b, const koksma_star_opts *opts, double *upper,
+                            double *work, bool *stopped);
+
+/* A coordinate of point i. */
+typedef struct ki_keyed {
+    double x;
+    uint32_t i;
+} ki_keyed;
+
+/* Sort coordinate k of all points; n < 2^31.  a and b have room for n each, and the
+ * one returned holds them in order, tied ones in the order of the points.  -0 has
+ * become 0. */
+ki_keyed *ki_sort_axis(koksma_points p, size_t k, ki_keyed *a, ki_keyed *b);
 
 #endif

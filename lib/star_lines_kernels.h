@@ -1,0 +1,136 @@
+#ifndef KI_STAR_LINES_KERNELS_H
+#define KI_STAR_LINES_KERNELS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "star_kernels.h"
+
+/* Private: the star discrepancy by filtered lines, in these files:
+ *
+ *   star_sort.c          points in the order of a coordinate
+ *   star_lines_grid.c    columns and lines
+ *   star_lines_climb.c   a first incumbent
+ *   star_lines_cell.c    cells of columns, the points and the lines that matter
+ *   star_lines_filter.c  which lines do, and why
+ *   star_lines_leaf.c    the corners of a small cell
+ *   star_lines.c         the search
+ *
+ * A corner is a column, its ranks along all axes but the last, and a line, its
+ * height along the last.  Ranks run from 0 to n - 1 along the points in the order
+ * of a coordinate, tied ones in any order, and rank n stands for the coordinate 1.
+ * With the points ranked along the last axis too, and t the product of the
+ * column's coordinates times n, the excess of a corner is
+ *
+ *     open    t y - #{points of lower rank along every axis}
+ *     closed  #{points of lower or equal rank along every axis} - t y
+ *
+ * Tied coordinates need no special case: in a run of equal ones the first rank
+ * has the right count for an open box and the last for a closed one, and the
+ * others only understate the excess.  (Closed boxes of rank n are real boxes too.) */
+
+enum { KI_LINES_AXES = 2, KI_LINES_DEPTH = 72 };
+
+/* A line in a cell of columns [low, high).  The lower half of the tally counts the
+ * points that are below the line and inside along every axis whatever the column;
+ * the upper half those below it that may be inside or not.  (Below a line of a
+ * closed box means below it or on it.) */
+typedef struct ki_line {
+    double y;
+    uint64_t tally;
+} ki_line;
+
+static inline uint32_t ki_line_inside(ki_line l) { return (uint32_t)l.tally; }
+static inline uint32_t ki_line_unsure(ki_line l)
+{
+    return (uint32_t)(l.tally >> 32);
+}
+
+/* What does not change once it is made. */
+typedef struct ki_lines_grid {
+    size_t n, axes;              /* axes: all but the last */
+    double *side[KI_LINES_AXES]; /* the n + 1 coordinates by rank */
+    double *height;              /* n: along the last axis, in order */
+    uint32_t *rank;   /* rank[p*axes + k]: along axis k, of the p-th in height */
+    ki_line *line[2]; /* of distinct height: of open boxes, of closed ones */
+    size_t lines[2];
+} ki_lines_grid;
+
+koksma_status ki_lines_grid_make(ki_lines_grid *out, koksma_points p);
+void ki_lines_grid_free(ki_lines_grid *g);
+
+/* Columns low[k] <= rank < high[k].  Points and lines lie in the worker's; of the
+ * points those are kept whose ranks are below high and not all below low. */
+typedef struct ki_lines_cell {
+    uint32_t low[KI_LINES_AXES], high[KI_LINES_AXES];
+    size_t point, points;
+    size_t line[2], lines[2];
+    size_t axis; /* the one to split, in so many parts */
+    uint32_t parts, part;
+} ki_lines_cell;
+
+/* What one thread works with. */
+typedef struct ki_lines_worker {
+    const ki_lines_grid *grid;
+    ki_best *best;
+    ki_lines_cell path[KI_LINES_DEPTH];
+    uint32_t *point; /* ranks of points, as in the grid */
+    size_t room_points;
+    ki_line *line;
+    size_t room_lines;
+    uint64_t *map; /* n + 1: what the points below add to a line's tally */
+    double *y, *c; /* the lines of a leaf, apart */
+    size_t room_y, room_c;
+    uint32_t *start; /* n + 1: the first line that a column's point is below */
+    size_t leaf;     /* columns of a cell that is not split any more */
+    double factor;   /* boxes below factor * lower are of no interest; 1: exact */
+    double work;     /* lines looked at */
+} ki_lines_worker;
+
+koksma_status ki_lines_worker_begin(ki_lines_worker *w, const ki_lines_grid *g,
+                                    ki_best *best);
+void ki_lines_worker_end(ki_lines_worker *w);
+
+/* n times the product of the coordinates of a column. */
+static inline double ki_lines_slope(const ki_lines_grid *g, const uint32_t *q)
+{
+    double t = (double)g->n * g->side[0][q[0]];
+
+    return g->axes == 1 ? t : t * g->side[1][q[1]];
+}
+
+/* Fill path[0] with the cell [low, high): any that a thread is to search. */
+bool ki_lines_cell_first(ki_lines_worker *w, const uint32_t *low,
+                         const uint32_t *high);
+
+/* Fill path[depth + 1] with the next part of path[depth].  Returns false without
+ * memory. */
+bool ki_lines_cell_enter(ki_lines_worker *w, size_t depth);
+
+/* A cell's extremes: slope at its first and last column, the excess below which
+ * nothing matters, and what rounding may take from a difference of excesses. */
+typedef struct ki_lines_range {
+    double first, last, cut, margin;
+} ki_lines_range;
+
+/* Copy to `out` what matters of m lines, with the tallies that the map gives them;
+ * returns how many that are.  out has room for m, and does not overlap with in. */
+size_t ki_lines_filter(ki_line *out, const ki_line *in, size_t m,
+                       const uint64_t *map, const ki_lines_range *r, bool closed);
+
+/* Offer all corners of the cell that may matter.  Returns false without memory. */
+bool ki_lines_leaf(ki_lines_worker *w, const ki_lines_cell *c);
+
+/* Offer a few corners that no step along an axis improves. */
+koksma_status ki_lines_climb(const ki_lines_grid *g, ki_best *b);
+
+/* Offer the box at corner, with a count that is right. */
+void ki_lines_recount(ki_best *b, const double *corner, bool closed);
+
+/* What ki_star_lines does, with leaves of so many columns. */
+koksma_status ki_star_lines_with(ki_best *b, const koksma_star_opts *opts,
+                                 size_t leaf, double *upper, double *work,
+                                 bool *stopped);
+
+#endif
