@@ -43,7 +43,7 @@ static bool examine(search *s, ki_lines_worker *w, ki_lines_cell *c)
     }
     c->axis = 0;
     c->part = 0;
-    c->parts = 4;
+    c->parts = c->high[0] - c->low[0] < 4 ? c->high[0] - c->low[0] : 4;
     return true;
 }
 
