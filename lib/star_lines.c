@@ -33,6 +33,24 @@ static size_t columns(const ki_lines_worker *w, const ki_lines_cell *c)
     return all;
 }
 
+/* Along the axis that the volume varies most on. */
+static void choose_split(const ki_lines_grid *g, ki_lines_cell *c)
+{
+    uint32_t most = g->axes == 1 ? 4 : 2, width;
+    double ratio[KI_LINES_AXES] = {1.0, 1.0};
+
+    for (size_t k = 0; k < g->axes; k++) /* of two axes, narrow ones have 1 */
+        if (c->high[k] - c->low[k] > 1)
+            ratio[k] = g->side[k][c->low[k]] / g->side[k][c->high[k] - 1];
+    c->axis = g->axes == 2 && (c->high[0] - c->low[0] == 1 ||
+                               (c->high[1] - c->low[1] > 1 && ratio[1] < ratio[0]))
+                  ? 1
+                  : 0;
+    width = c->high[c->axis] - c->low[c->axis];
+    c->part = 0;
+    c->parts = width < most ? width : most;
+}
+
 /* Settle how to split the cell.  Returns whether there is anything to split. */
 static bool examine(search *s, ki_lines_worker *w, ki_lines_cell *c)
 {
@@ -41,9 +59,7 @@ static bool examine(search *s, ki_lines_worker *w, ki_lines_cell *c)
         s->no_memory = !ki_lines_leaf(w, c);
         return false;
     }
-    c->axis = 0;
-    c->part = 0;
-    c->parts = c->high[0] - c->low[0] < 4 ? c->high[0] - c->low[0] : 4;
+    choose_split(w->grid, c);
     return true;
 }
 

@@ -1,27 +1,27 @@
 #include "star_lines_kernels.h"
 
-static inline double inside_of(uint64_t tally)
+static inline __attribute__((always_inline)) double inside_of(uint64_t tally)
 {
     return (double)(int32_t)(uint32_t)tally;
 }
 
 /* At most, whatever the column: an open box of the last one with the points that
  * are surely inside, a closed one of the first with all that may be. */
-static inline double most(double y, uint64_t tally, const ki_lines_range *r,
+static inline __attribute__((always_inline)) double most(double y, uint64_t tally, const ki_lines_range *r,
                           bool closed)
 {
     return closed ? inside_of(tally + (tally >> 32)) - r->first * y
                   : r->last * y - inside_of(tally);
 }
 
-static inline double least(double y, uint64_t tally, const ki_lines_range *r,
+static inline __attribute__((always_inline)) double least(double y, uint64_t tally, const ki_lines_range *r,
                            bool closed)
 {
     return closed ? inside_of(tally) - r->last * y
                   : r->first * y - inside_of(tally + (tally >> 32));
 }
 
-static inline size_t keep_records(ki_line *restrict out, const ki_line *restrict in,
+static inline __attribute__((always_inline)) size_t keep_records(ki_line *restrict out, const ki_line *restrict in,
                                   size_t m, const uint64_t *restrict map,
                                   const ki_lines_range *r, bool closed)
 {
@@ -40,7 +40,7 @@ static inline size_t keep_records(ki_line *restrict out, const ki_line *restrict
 }
 
 /* From the right, and to the right end; returns how many. */
-static inline size_t keep_records_back(ki_line *line, size_t m,
+static inline __attribute__((always_inline)) size_t keep_records_back(ki_line *line, size_t m,
                                        const ki_lines_range *r, bool closed)
 {
     double cut = -2.0 * (double)UINT32_MAX;
@@ -58,7 +58,7 @@ static inline size_t keep_records_back(ki_line *line, size_t m,
 }
 
 /* How far b is above the segment from a to c, times its length. */
-static inline double above(ki_line a, ki_line b, ki_line c, bool closed)
+static inline __attribute__((always_inline)) double above(ki_line a, ki_line b, ki_line c, bool closed)
 {
     double ab = inside_of(b.tally) - inside_of(a.tally);
     double ac = inside_of(c.tally) - inside_of(a.tally);
@@ -67,7 +67,7 @@ static inline double above(ki_line a, ki_line b, ki_line c, bool closed)
     return closed ? -d : d;
 }
 
-static inline size_t keep_hull(ki_line *line, size_t from, size_t m,
+static inline __attribute__((always_inline)) size_t keep_hull(ki_line *line, size_t from, size_t m,
                                const ki_lines_range *r, bool closed)
 {
     ki_line a, b;
@@ -93,7 +93,7 @@ static inline size_t keep_hull(ki_line *line, size_t from, size_t m,
     return kept;
 }
 
-static inline size_t filter(ki_line *out, const ki_line *in, size_t m,
+static inline __attribute__((always_inline)) size_t filter(ki_line *out, const ki_line *in, size_t m,
                             const uint64_t *map, const ki_lines_range *r,
                             bool closed)
 {

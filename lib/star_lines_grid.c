@@ -44,11 +44,13 @@ static void rank_axes(ki_lines_grid *g, koksma_points p, ki_keyed *a, ki_keyed *
     }
 }
 
+_Static_assert(sizeof(ki_line) <= sizeof(ki_keyed), "the lines take their place");
+
 koksma_status ki_lines_grid_make(ki_lines_grid *out, koksma_points p)
 {
     size_t n = p.n, axes = p.dim - 1;
     ki_lines_grid g = {.n = n, .axes = axes};
-    ki_keyed *sorted = ki_alloc(2 * n, sizeof *sorted);
+    ki_keyed *sorted = ki_alloc(2 * n + 1, sizeof *sorted);
     uint32_t *rank_of = ki_alloc(axes * n, sizeof *rank_of);
 
     g.side[0] = ki_alloc(axes * (n + 1) + n, sizeof(double));
@@ -58,10 +60,9 @@ koksma_status ki_lines_grid_make(ki_lines_grid *out, koksma_points p)
         g.height = g.side[0] + axes * (n + 1);
         rank_axes(&g, p, sorted, sorted + n, rank_of);
     }
-    free(sorted);
     free(rank_of);
-    g.line[0] = ki_alloc(2 * n + 1, sizeof(ki_line));
-    if (g.height == NULL || g.line[0] == NULL) {
+    g.line[0] = (ki_line *)(void *)sorted; /* which has done its work */
+    if (g.height == NULL) {
         ki_lines_grid_free(&g);
         return KOKSMA_ENOMEM;
     }

@@ -116,8 +116,43 @@ static bool sweep_slab(ki_lines_worker *w, const ki_lines_cell *c, bool closed)
     return true;
 }
 
+/* The count of one column at each line, by merging points and lines. */
+static void count_column(ki_lines_worker *w, const ki_lines_cell *c,
+                         const uint32_t *q, bool closed)
+{
+    const uint32_t *point = w->point + c->point;
+    const ki_line *line = w->line + c->line[closed];
+    uint32_t more = closed ? 1 : 0;
+    size_t p = 0, inside = 0;
+
+    for (size_t j = 0; j < c->lines[closed]; j++) {
+        for (; p < ki_line_unsure(line[j]); p++)
+            inside +=
+                (point[2 * p] < q[0] + more) & (point[2 * p + 1] < q[1] + more);
+        w->c[j] = (double)(ki_line_inside(line[j]) + inside);
+    }
+}
+
+static bool sweep_cell(ki_lines_worker *w, const ki_lines_cell *c, bool closed)
+{
+    const ki_lines_grid *g = w->grid;
+    size_t m = c->lines[closed];
+    uint32_t q[KI_LINES_AXES];
+
+    if (!take_apart(w, w->line + c->line[closed], m, closed)) return false;
+    for (q[0] = c->low[0]; q[0] < c->high[0]; q[0]++)
+        for (q[1] = c->low[1]; q[1] < c->high[1]; q[1]++) {
+            count_column(w, c, q, closed);
+            offer_column(w, q, ki_lines_slope(g, q), m, closed);
+            w->work += (double)(m + c->points);
+        }
+    return true;
+}
+
 bool ki_lines_leaf(ki_lines_worker *w, const ki_lines_cell *c)
 {
+    if (w->grid->axes == 2)
+        return sweep_cell(w, c, false) && sweep_cell(w, c, true);
     if (w->start == NULL) {
         w->start = ki_alloc(w->leaf, sizeof *w->start);
         if (w->start == NULL) return false;
