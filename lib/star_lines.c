@@ -69,7 +69,7 @@ static bool told_to_stop(search *s, const ki_lines_worker *w)
     double work = s->work_before + w->work;
 
     if (work < s->next_report) return false;
-    s->next_report = work + 0x1p24;
+    s->next_report = work + 0x1p20;
     return (opts->work > 0.0 && work > opts->work) ||
            (opts->progress != NULL &&
             opts->progress(opts->state, w->best->value.lower, s->upper, work) != 0);
@@ -158,7 +158,7 @@ koksma_status ki_star_lines_with(ki_best *b, const koksma_star_opts *opts,
                 .best = b,
                 .leaf = leaf,
                 .upper = 1.0,
-                .next_report = 0x1p24};
+                .next_report = 0x1p20};
     koksma_status status = ki_lines_grid_make(&grid, b->p);
 
     if (status != KOKSMA_OK) return status;
