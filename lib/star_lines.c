@@ -33,33 +33,14 @@ static size_t columns(const ki_lines_worker *w, const ki_lines_cell *c)
     return all;
 }
 
-/* Along the axis that the volume varies most on. */
-static void choose_split(const ki_lines_grid *g, ki_lines_cell *c)
-{
-    uint32_t most = g->axes == 1 ? 4 : 2, width;
-    double ratio[KI_LINES_AXES] = {1.0, 1.0};
-
-    for (size_t k = 0; k < g->axes; k++) /* of two axes, narrow ones have 1 */
-        if (c->high[k] - c->low[k] > 1)
-            ratio[k] = g->side[k][c->low[k]] / g->side[k][c->high[k] - 1];
-    c->axis = g->axes == 2 && (c->high[0] - c->low[0] == 1 ||
-                               (c->high[1] - c->low[1] > 1 && ratio[1] < ratio[0]))
-                  ? 1
-                  : 0;
-    width = c->high[c->axis] - c->low[c->axis];
-    c->part = 0;
-    c->parts = width < most ? width : most;
-}
-
-/* Settle how to split the cell.  Returns whether there is anything to split. */
-static bool examine(search *s, ki_lines_worker *w, ki_lines_cell *c)
+/* Whether there is anything to split; a small cell is worked off here. */
+static bool examine(search *s, ki_lines_worker *w, const ki_lines_cell *c)
 {
     if (c->lines[0] + c->lines[1] == 0) return false;
-    if (columns(w, c) <= w->leaf) {
+    if (!c->of_grid && columns(w, c) <= w->leaf) {
         s->no_memory = !ki_lines_leaf(w, c);
         return false;
     }
-    choose_split(w->grid, c);
     return true;
 }
 
@@ -75,21 +56,25 @@ static bool told_to_stop(search *s, const ki_lines_worker *w)
             opts->progress(opts->state, w->best->value.lower, s->upper, work) != 0);
 }
 
-/* Search below path[0]. */
-static void run(search *s, ki_lines_worker *w)
+/* Search a cell: any that a thread is given. */
+static void run(search *s, ki_lines_worker *w, const ki_lines_cell *whole)
 {
     size_t depth = 0;
 
-    if (!examine(s, w, &w->path[0])) return;
+    s->no_memory = !ki_lines_cell_split(w, whole, 0);
+    if (s->no_memory) return;
     for (;;) {
-        if (w->path[depth].part == w->path[depth].parts) {
+        ki_lines_split *split = &w->path[depth];
+        const ki_lines_cell *c = &split->part[split->left - 1];
+
+        if (split->left == 0) {
             if (depth-- == 0) return;
             continue;
         }
         s->stopped = told_to_stop(s, w);
         if (s->stopped) return;
-        s->no_memory = !ki_lines_cell_enter(w, depth);
-        if (!s->no_memory && examine(s, w, &w->path[depth + 1])) depth++;
+        split->left--;
+        if (examine(s, w, c)) s->no_memory = !ki_lines_cell_split(w, c, ++depth);
         if (s->no_memory) return;
     }
 }
@@ -98,16 +83,13 @@ static void run(search *s, ki_lines_worker *w)
 static koksma_status search_stage(search *s, double factor)
 {
     ki_lines_worker *w = ki_alloc(1, sizeof *w);
-    uint32_t low[KI_LINES_AXES] = {0}, high[KI_LINES_AXES];
+    ki_lines_cell whole = ki_lines_cell_whole(s->grid);
 
-    s->no_memory = w == NULL || ki_lines_worker_begin(w, s->grid, s->best) != 0;
+    s->no_memory =
+        w == NULL || ki_lines_worker_begin(w, s->grid, s->best, s->leaf) != KOKSMA_OK;
     if (!s->no_memory) {
-        w->leaf = s->leaf;
         w->factor = factor;
-        for (size_t k = 0; k < s->grid->axes; k++)
-            high[k] = (uint32_t)(s->grid->n + 1);
-        s->no_memory = !ki_lines_cell_first(w, low, high);
-        if (!s->no_memory) run(s, w);
+        run(s, w, &whole);
         s->work_before += w->work;
         ki_lines_worker_end(w);
     }

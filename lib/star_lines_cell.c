@@ -1,149 +1,183 @@
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "error.h"
 #include "star_lines_kernels.h"
 
 koksma_status ki_lines_worker_begin(ki_lines_worker *w, const ki_lines_grid *g,
-                                    ki_best *best)
+                                    ki_best *best, size_t leaf)
 {
-    *w = (ki_lines_worker){.grid = g, .best = best, .factor = 1.0};
-    w->map = ki_alloc(g->n + 1, sizeof *w->map);
-    if (w->map != NULL) return KOKSMA_OK;
-    ki_lines_worker_end(w);
-    return KOKSMA_ENOMEM;
+    *w = (ki_lines_worker){.grid = g, .best = best, .leaf = leaf, .factor = 1.0};
+    w->start = ki_alloc(leaf, sizeof *w->start);
+    return w->start != NULL ? KOKSMA_OK : KOKSMA_ENOMEM;
 }
 
 void ki_lines_worker_end(ki_lines_worker *w)
 {
     free(w->point);
     free(w->line);
-    free(w->map);
     free(w->y);
     free(w->c);
     free(w->start);
 }
 
-/* Of m points, copy those that may be inside a column of the cell or not; the map
- * counts, below each, them and (in the lower halves) those surely inside. */
-static size_t narrow_slab(uint32_t *restrict out, uint64_t *restrict map,
-                          const uint32_t *restrict in, size_t m, uint32_t low,
-                          uint32_t high)
+ki_lines_cell ki_lines_cell_whole(const ki_lines_grid *g)
 {
-    uint32_t width = high - low;
-    uint64_t sum = 0;
-    size_t kept = 0;
+    ki_lines_cell c = {.of_grid = true,
+                       .points = g->n,
+                       .line[1] = (size_t)(g->line[1] - g->line[0]),
+                       .lines = {g->lines[0], g->lines[1]}};
 
-    map[0] = 0;
-    for (size_t i = 0; i < m; i++) {
-        uint32_t rank = in[i];
-        uint64_t inside = rank < low, unsure = rank - low < width;
-
-        sum += inside + (unsure << 32);
-        map[i + 1] = sum;
-        out[kept] = rank;
-        kept += unsure;
-    }
-    return kept;
+    for (size_t k = 0; k < g->axes; k++)
+        c.high[k] = (uint32_t)(g->n + 1);
+    return c;
 }
 
-static size_t narrow_cell(uint32_t *restrict out, uint64_t *restrict map,
-                          const uint32_t *restrict in, size_t m, const uint32_t *low,
-                          const uint32_t *high)
+/* How many parts the sides of a cell are split in: of two axes both in two, or the
+ * one along which the volume varies far more in four. */
+static void choose_parts(const ki_lines_grid *g, const ki_lines_cell *c,
+                         uint32_t *parts)
 {
-    uint64_t sum = 0;
-    size_t kept = 0;
+    double ratio[KI_LINES_AXES];
+    uint32_t width[KI_LINES_AXES];
 
-    map[0] = 0;
-    for (size_t i = 0; i < m; i++) {
-        uint32_t p = in[2 * i], q = in[2 * i + 1];
-        uint64_t inside = (p < low[0]) & (q < low[1]);
-        uint64_t unsure = ((p < high[0]) & (q < high[1])) ^ inside;
-
-        sum += inside + (unsure << 32);
-        map[i + 1] = sum;
-        out[2 * kept] = p;
-        out[2 * kept + 1] = q;
-        kept += unsure;
+    for (size_t k = 0; k < g->axes; k++) {
+        width[k] = c->high[k] - c->low[k];
+        ratio[k] = 1.0 - g->side[k][c->low[k]] / g->side[k][c->high[k] - 1];
     }
-    return kept;
+    parts[0] = 4;
+    if (g->axes == 2) {
+        parts[0] = parts[1] = 2;
+        if (width[1] == 1 || ratio[0] > 2.0 * ratio[1]) parts[0] = 4, parts[1] = 1;
+        if (width[0] == 1 || ratio[1] > 2.0 * ratio[0]) parts[0] = 1, parts[1] = 4;
+    }
+    for (size_t k = 0; k < g->axes; k++)
+        if (parts[k] > width[k]) parts[k] = width[k];
 }
 
-static ki_lines_range range_of(const ki_lines_worker *w, const ki_lines_cell *c)
+static void make_parts(const ki_lines_grid *g, const ki_lines_cell *c,
+                       ki_lines_split *s)
+{
+    uint32_t parts[KI_LINES_AXES] = {1, 1}, at[KI_LINES_AXES];
+
+    choose_parts(g, c, parts);
+    s->left = parts[0] * parts[1];
+    for (size_t q = 0; q < s->left; q++) {
+        ki_lines_cell *part = &s->part[q];
+
+        *part = (ki_lines_cell){0};
+        at[0] = (uint32_t)q % parts[0];
+        at[1] = (uint32_t)q / parts[0];
+        for (size_t k = 0; k < g->axes; k++) {
+            uint64_t width = c->high[k] - c->low[k];
+
+            part->low[k] = c->low[k] + (uint32_t)(width * at[k] / parts[k]);
+            part->high[k] = c->low[k] + (uint32_t)(width * (at[k] + 1) / parts[k]);
+        }
+    }
+}
+
+static void set_range(const ki_lines_worker *w, const ki_lines_split *s,
+                      ki_lines_range *r)
 {
     const ki_best *b = w->best;
     double n = (double)w->grid->n;
-    uint32_t last[KI_LINES_AXES];
+    double cut = n * (b->proven * w->factor - b->slack);
 
-    for (size_t k = 0; k < w->grid->axes; k++)
-        last[k] = c->high[k] - 1;
-    return (ki_lines_range){ki_lines_slope(w->grid, c->low),
-                            ki_lines_slope(w->grid, last),
-                            n * (b->proven * w->factor - b->slack), n * b->slack};
-}
+    memset(r, 0, sizeof *r);
+    r->margin = n * b->slack;
+    for (size_t q = 0; q < KI_LINES_PARTS; q++)
+        r->cut[q] = HUGE_VAL;
+    for (size_t q = 0; q < s->left; q++) {
+        uint32_t last[KI_LINES_AXES];
 
-/* c: its ranges, and where its points and lines are to lie. */
-static bool fill(ki_lines_worker *w, ki_lines_cell *c, const uint32_t *point,
-                 size_t points, const ki_line *const *line, const size_t *lines)
-{
-    ki_lines_range range = range_of(w, c);
-
-    if (w->grid->axes == 1)
-        c->points = narrow_slab(w->point + c->point, w->map, point, points,
-                                c->low[0], c->high[0]);
-    else
-        c->points = narrow_cell(w->point + c->point, w->map, point, points, c->low,
-                                c->high);
-    for (int closed = 0; closed < 2; closed++) {
-        if (closed) c->line[1] = c->line[0] + c->lines[0];
-        c->lines[closed] =
-            ki_lines_filter(w->line + c->line[closed], line[closed], lines[closed],
-                            w->map, &range, closed);
-        w->work += (double)lines[closed];
+        for (size_t k = 0; k < w->grid->axes; k++) {
+            r->low[k][q] = s->part[q].low[k];
+            r->high[k][q] = s->part[q].high[k];
+            last[k] = s->part[q].high[k] - 1;
+        }
+        r->first[q] = ki_lines_slope(w->grid, s->part[q].low);
+        r->last[q] = ki_lines_slope(w->grid, last);
+        r->cut[q] = cut;
     }
-    return true;
 }
 
-static bool make_room(ki_lines_worker *w, size_t points, size_t lines)
+/* Room for all of whole's points and lines in each part, from `point` and `line`
+ * on: with a place to spare, as what is not kept is written too. */
+static bool make_room(ki_lines_worker *w, const ki_lines_cell *whole, size_t point,
+                      size_t line)
 {
-    return ki_grow((void **)&w->point, &w->room_points, points * w->grid->axes,
+    size_t points = KI_LINES_PARTS * (whole->points + 1) * w->grid->axes;
+    size_t lines = KI_LINES_PARTS * (whole->lines[0] + whole->lines[1] + 2);
+
+    return ki_grow((void **)&w->point, &w->room_points, point + points,
                    sizeof *w->point) == 0 &&
-           ki_grow((void **)&w->line, &w->room_lines, lines, sizeof *w->line) == 0;
+           ki_grow((void **)&w->line, &w->room_lines, line + lines,
+                   sizeof *w->line) == 0;
 }
 
-bool ki_lines_cell_first(ki_lines_worker *w, const uint32_t *low,
-                         const uint32_t *high)
+static void set_flow(const ki_lines_worker *w, const ki_lines_cell *whole,
+                     size_t point, size_t line, ki_lines_flow *f)
 {
     const ki_lines_grid *g = w->grid;
-    ki_lines_cell *c = &w->path[0];
 
-    *c = (ki_lines_cell){0};
-    for (size_t k = 0; k < g->axes; k++) {
-        c->low[k] = low[k];
-        c->high[k] = high[k];
+    f->axes = g->axes;
+    f->points = whole->points;
+    f->point = whole->of_grid ? g->rank : w->point + whole->point;
+    for (size_t q = 0; q < KI_LINES_PARTS; q++)
+        f->to_point[q] = w->point + point + q * (whole->points + 1) * g->axes;
+    for (int closed = 0; closed < 2; closed++) {
+        size_t room = whole->lines[closed] + 1;
+
+        f->line[closed] =
+            (whole->of_grid ? g->line[0] : w->line) + whole->line[closed];
+        f->lines[closed] = whole->lines[closed];
+        for (size_t q = 0; q < KI_LINES_PARTS; q++, line += room)
+            f->to_line[closed][q] = w->line + line;
     }
-    return make_room(w, g->n, g->lines[0] + g->lines[1]) &&
-           fill(w, c, g->rank, g->n, (const ki_line *const *)g->line, g->lines);
 }
 
-bool ki_lines_cell_enter(ki_lines_worker *w, size_t depth)
+/* Close the gaps between the parts, from `point` and `line` on. */
+static void settle_parts(ki_lines_worker *w, const ki_lines_flow *f,
+                         const ki_lines_range *r, ki_lines_split *s, size_t point,
+                         size_t line)
 {
-    ki_lines_cell *whole = &w->path[depth], *c = whole + 1;
-    size_t k = whole->axis, axes = w->grid->axes;
-    uint64_t width = whole->high[k] - whole->low[k];
-    uint32_t part = whole->parts - ++whole->part;
+    for (size_t q = 0; q < s->left; q++) {
+        s->part[q].point = point;
+        s->part[q].points = f->points_kept[q];
+        memmove(w->point + point, f->to_point[q],
+                f->points_kept[q] * f->axes * sizeof *w->point);
+        point += f->points_kept[q] * f->axes;
+    }
+    for (int closed = 0; closed < 2; closed++)
+        for (size_t q = 0; q < s->left; q++) {
+            s->part[q].line[closed] = line;
+            s->part[q].lines[closed] =
+                ki_lines_thin(w->line + line, f->to_line[closed][q],
+                              f->lines_kept[closed][q], r, q, closed);
+            line += s->part[q].lines[closed];
+        }
+}
 
-    *c = *whole;
-    c->part = c->parts = 0;
-    c->low[k] = whole->low[k] + (uint32_t)(width * part / whole->parts);
-    c->high[k] = whole->low[k] + (uint32_t)(width * (part + 1) / whole->parts);
-    c->point = whole->point + axes * whole->points;
-    c->line[0] = whole->line[1] + whole->lines[1];
-    if (!make_room(w, (c->point / axes) + whole->points,
-                   c->line[0] + whole->lines[0] + whole->lines[1]))
-        return false;
+bool ki_lines_cell_split(ki_lines_worker *w, const ki_lines_cell *whole,
+                         size_t depth)
+{
+    ki_lines_split *s = &w->path[depth];
+    ki_lines_range r;
+    ki_lines_flow f;
+    size_t point = 0, line = 0;
 
-    const ki_line *line[2] = {w->line + whole->line[0], w->line + whole->line[1]};
-
-    return fill(w, c, w->point + whole->point, whole->points, line, whole->lines);
+    if (!whole->of_grid) { /* behind the last part of the split that it is in */
+        point = whole->point + whole->points * w->grid->axes;
+        line = whole->line[1] + whole->lines[1];
+    }
+    make_parts(w->grid, whole, s);
+    if (!make_room(w, whole, point, line)) return false;
+    set_range(w, s, &r);
+    set_flow(w, whole, point, line, &f);
+    ki_lines_flow_down(&f, &r);
+    settle_parts(w, &f, &r, s, point, line);
+    w->work += (double)s->left * (double)(whole->lines[0] + whole->lines[1]);
+    return true;
 }

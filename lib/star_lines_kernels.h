@@ -7,13 +7,23 @@
 
 #include "star_kernels.h"
 
+/* Kernels that profit from wide vectors come in versions; the one that the machine
+ * can run is chosen as the program starts. */
+#ifdef HAVE_TARGET_CLONES
+#define KI_LINES_CLONES                                                            \
+    __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define KI_LINES_CLONES
+#endif
+
 /* Private: the star discrepancy by filtered lines, in these files:
  *
  *   star_sort.c          points in the order of a coordinate
  *   star_lines_grid.c    columns and lines
  *   star_lines_climb.c   a first incumbent
  *   star_lines_cell.c    cells of columns, the points and the lines that matter
- *   star_lines_filter.c  which lines do, and why
+ *   star_lines_flow.c    points and lines on their way into the parts of a cell
+ *   star_lines_thin.c    which lines matter, and why
  *   star_lines_leaf.c    the corners of a small cell
  *   star_lines.c         the search
  *
@@ -30,7 +40,7 @@
  * has the right count for an open box and the last for a closed one, and the
  * others only understate the excess.  (Closed boxes of rank n are real boxes too.) */
 
-enum { KI_LINES_AXES = 2, KI_LINES_DEPTH = 72 };
+enum { KI_LINES_AXES = 2, KI_LINES_PARTS = 4, KI_LINES_DEPTH = 72 };
 
 /* A line in a cell of columns [low, high).  The lower half of the tally counts the
  * points that are below the line and inside along every axis whatever the column;
@@ -60,36 +70,41 @@ typedef struct ki_lines_grid {
 koksma_status ki_lines_grid_make(ki_lines_grid *out, koksma_points p);
 void ki_lines_grid_free(ki_lines_grid *g);
 
-/* Columns low[k] <= rank < high[k].  Points and lines lie in the worker's; of the
- * points those are kept whose ranks are below high and not all below low. */
+/* Columns low[k] <= rank < high[k].  Points and lines lie in the worker's or the
+ * grid's arrays; of the points those are kept whose ranks are below high and not
+ * all below low. */
 typedef struct ki_lines_cell {
     uint32_t low[KI_LINES_AXES], high[KI_LINES_AXES];
+    bool of_grid;
     size_t point, points;
     size_t line[2], lines[2];
-    size_t axis; /* the one to split, in so many parts */
-    uint32_t parts, part;
 } ki_lines_cell;
+
+/* The parts that a cell is split in, all of them made at once. */
+typedef struct ki_lines_split {
+    ki_lines_cell part[KI_LINES_PARTS];
+    size_t left; /* parts not searched yet; the last one is next */
+} ki_lines_split;
 
 /* What one thread works with. */
 typedef struct ki_lines_worker {
     const ki_lines_grid *grid;
     ki_best *best;
-    ki_lines_cell path[KI_LINES_DEPTH];
+    ki_lines_split path[KI_LINES_DEPTH];
     uint32_t *point; /* ranks of points, as in the grid */
     size_t room_points;
     ki_line *line;
     size_t room_lines;
-    uint64_t *map; /* n + 1: what the points below add to a line's tally */
     double *y, *c; /* the lines of a leaf, apart */
     size_t room_y, room_c;
-    uint32_t *start; /* n + 1: the first line that a column's point is below */
+    uint32_t *start; /* leaf: the first line that a column's point is below */
     size_t leaf;     /* columns of a cell that is not split any more */
     double factor;   /* boxes below factor * lower are of no interest; 1: exact */
     double work;     /* lines looked at */
 } ki_lines_worker;
 
 koksma_status ki_lines_worker_begin(ki_lines_worker *w, const ki_lines_grid *g,
-                                    ki_best *best);
+                                    ki_best *best, size_t leaf);
 void ki_lines_worker_end(ki_lines_worker *w);
 
 /* n times the product of the coordinates of a column. */
@@ -100,24 +115,46 @@ static inline double ki_lines_slope(const ki_lines_grid *g, const uint32_t *q)
     return g->axes == 1 ? t : t * g->side[1][q[1]];
 }
 
-/* Fill path[0] with the cell [low, high): any that a thread is to search. */
-bool ki_lines_cell_first(ki_lines_worker *w, const uint32_t *low,
-                         const uint32_t *high);
+/* The cell of all columns. */
+ki_lines_cell ki_lines_cell_whole(const ki_lines_grid *g);
 
-/* Fill path[depth + 1] with the next part of path[depth].  Returns false without
- * memory. */
-bool ki_lines_cell_enter(ki_lines_worker *w, size_t depth);
+/* Split `whole`, which may lie in path[depth - 1], into path[depth].  Returns false
+ * without memory. */
+bool ki_lines_cell_split(ki_lines_worker *w, const ki_lines_cell *whole,
+                         size_t depth);
 
-/* A cell's extremes: slope at its first and last column, the excess below which
- * nothing matters, and what rounding may take from a difference of excesses. */
+/* Numbers of all parts, side by side; a part that is not there is empty. */
+typedef double ki_lanes __attribute__((vector_size(8 * KI_LINES_PARTS)));
+typedef uint64_t ki_words __attribute__((vector_size(8 * KI_LINES_PARTS)));
+
+/* What the filters go by.  A line below the cut does not matter; rounding takes
+ * less than the margin from a difference of excesses. */
 typedef struct ki_lines_range {
-    double first, last, cut, margin;
+    ki_words low[KI_LINES_AXES], high[KI_LINES_AXES];
+    ki_lanes first, last; /* slopes at a part's first and last column */
+    ki_lanes cut;
+    double margin;
 } ki_lines_range;
 
-/* Copy to `out` what matters of m lines, with the tallies that the map gives them;
- * returns how many that are.  out has room for m, and does not overlap with in. */
-size_t ki_lines_filter(ki_line *out, const ki_line *in, size_t m,
-                       const uint64_t *map, const ki_lines_range *r, bool closed);
+/* The points and lines of a cell, and where those of its parts go: each part has
+ * room for all of them. */
+typedef struct ki_lines_flow {
+    const uint32_t *point;
+    size_t axes, points;
+    uint32_t *to_point[KI_LINES_PARTS];
+    size_t points_kept[KI_LINES_PARTS];
+    const ki_line *line[2];
+    size_t lines[2];
+    ki_line *to_line[2][KI_LINES_PARTS];
+    size_t lines_kept[2][KI_LINES_PARTS];
+} ki_lines_flow;
+
+/* Hand down the points, and of the lines those that rise: the first filter. */
+void ki_lines_flow_down(ki_lines_flow *f, const ki_lines_range *r);
+
+/* What the other filters leave of m lines of a part; they move down to `out`. */
+size_t ki_lines_thin(ki_line *out, ki_line *line, size_t m, const ki_lines_range *r,
+                     size_t part, bool closed);
 
 /* Offer all corners of the cell that may matter.  Returns false without memory. */
 bool ki_lines_leaf(ki_lines_worker *w, const ki_lines_cell *c);

@@ -3,6 +3,8 @@
 #include "error.h"
 #include "star_lines_kernels.h"
 
+#define INLINE static inline __attribute__((always_inline))
+
 /* Lines are looked at in blocks, as vectors where the machine has them. */
 enum { BLOCK = 8 };
 typedef double block __attribute__((vector_size(BLOCK * 8), aligned(8)));
@@ -29,7 +31,7 @@ static void offer_column(ki_lines_worker *w, const uint32_t *q, double t, size_t
 }
 
 /* Whether a line of whole blocks is above the cut.  sign is -1 for closed boxes. */
-static bool some_above(const double *y, const double *c, size_t m, double t,
+INLINE bool some_above(const double *y, const double *c, size_t m, double t,
                        double sign, double cut)
 {
     mask any = {0};
@@ -47,7 +49,7 @@ static bool some_above(const double *y, const double *c, size_t m, double t,
 }
 
 /* One more point below the lines from `start` on. */
-static void add_point(double *c, size_t start, size_t m)
+INLINE void add_point(double *c, size_t start, size_t m)
 {
     size_t j = start;
 
@@ -93,6 +95,7 @@ static void find_starts(ki_lines_worker *w, const ki_lines_cell *c,
         w->start[point[p++] - c->low[0]] = (uint32_t)whole_blocks(m);
 }
 
+KI_LINES_CLONES
 static bool sweep_slab(ki_lines_worker *w, const ki_lines_cell *c, bool closed)
 {
     const ki_lines_grid *g = w->grid;
@@ -153,9 +156,5 @@ bool ki_lines_leaf(ki_lines_worker *w, const ki_lines_cell *c)
 {
     if (w->grid->axes == 2)
         return sweep_cell(w, c, false) && sweep_cell(w, c, true);
-    if (w->start == NULL) {
-        w->start = ki_alloc(w->leaf, sizeof *w->start);
-        if (w->start == NULL) return false;
-    }
     return sweep_slab(w, c, false) && sweep_slab(w, c, true);
 }
