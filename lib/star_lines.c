@@ -37,6 +37,7 @@ static size_t columns(const ki_lines_worker *w, const ki_lines_cell *c)
 static bool examine(search *s, ki_lines_worker *w, const ki_lines_cell *c)
 {
     if (c->lines[0] + c->lines[1] == 0) return false;
+    if (!w->scout && !ki_lines_found_in(w, c)) return false;
     if (!c->of_grid && columns(w, c) <= w->leaf) {
         s->no_memory = !ki_lines_leaf(w, c);
         return false;
@@ -89,7 +90,10 @@ static koksma_status search_stage(search *s, double factor)
         w == NULL || ki_lines_worker_begin(w, s->grid, s->best, s->leaf) != KOKSMA_OK;
     if (!s->no_memory) {
         w->factor = factor;
+        w->scout = true;
         run(s, w, &whole);
+        w->scout = false;
+        if (factor == 1.0 && !s->stopped && !s->no_memory) run(s, w, &whole);
         s->work_before += w->work;
         ki_lines_worker_end(w);
     }

@@ -79,14 +79,12 @@ static void make_parts(const ki_lines_grid *g, const ki_lines_cell *c,
 }
 
 static void set_range(const ki_lines_worker *w, const ki_lines_split *s,
-                      ki_lines_range *r)
+                      double loss, ki_lines_range *r)
 {
-    const ki_best *b = w->best;
-    double n = (double)w->grid->n;
-    double cut = n * (b->proven * w->factor - b->slack);
+    double margin = (double)w->grid->n * w->best->slack;
 
     memset(r, 0, sizeof *r);
-    r->margin = n * b->slack;
+    r->margin = w->scout ? -margin : margin;
     for (size_t q = 0; q < KI_LINES_PARTS; q++)
         r->cut[q] = HUGE_VAL;
     for (size_t q = 0; q < s->left; q++) {
@@ -99,7 +97,7 @@ static void set_range(const ki_lines_worker *w, const ki_lines_split *s,
         }
         r->first[q] = ki_lines_slope(w->grid, s->part[q].low);
         r->last[q] = ki_lines_slope(w->grid, last);
-        r->cut[q] = cut;
+        r->cut[q] = ki_lines_cut(w) - loss;
     }
 }
 
@@ -141,8 +139,10 @@ static void set_flow(const ki_lines_worker *w, const ki_lines_cell *whole,
 /* Close the gaps between the parts, from `point` and `line` on. */
 static void settle_parts(ki_lines_worker *w, const ki_lines_flow *f,
                          const ki_lines_range *r, ki_lines_split *s, size_t point,
-                         size_t line)
+                         size_t line, double loss)
 {
+    size_t longest[KI_LINES_PARTS] = {0};
+
     for (size_t q = 0; q < s->left; q++) {
         s->part[q].point = point;
         s->part[q].points = f->points_kept[q];
@@ -155,9 +155,11 @@ static void settle_parts(ki_lines_worker *w, const ki_lines_flow *f,
             s->part[q].line[closed] = line;
             s->part[q].lines[closed] =
                 ki_lines_thin(w->line + line, f->to_line[closed][q],
-                              f->lines_kept[closed][q], r, q, closed);
+                              f->lines_kept[closed][q], r, q, &longest[q], closed);
             line += s->part[q].lines[closed];
         }
+    for (size_t q = 0; q < s->left && w->scout; q++)
+        s->part[q].loss = loss - 2.0 * r->margin * (double)(2 + longest[q]);
 }
 
 bool ki_lines_cell_split(ki_lines_worker *w, const ki_lines_cell *whole,
@@ -174,10 +176,10 @@ bool ki_lines_cell_split(ki_lines_worker *w, const ki_lines_cell *whole,
     }
     make_parts(w->grid, whole, s);
     if (!make_room(w, whole, point, line)) return false;
-    set_range(w, s, &r);
+    set_range(w, s, whole->loss, &r);
     set_flow(w, whole, point, line, &f);
     ki_lines_flow_down(&f, &r);
-    settle_parts(w, &f, &r, s, point, line);
+    settle_parts(w, &f, &r, s, point, line, whole->loss);
     w->work += (double)s->left * (double)(whole->lines[0] + whole->lines[1]);
     return true;
 }

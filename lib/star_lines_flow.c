@@ -58,11 +58,12 @@ INLINE void count(ki_lanes *out, const ki_words *tally)
     *out = (ki_lanes)bits - 0x1p52;
 }
 
-INLINE void raise(ki_lanes *a, const ki_lanes *b)
+/* Raise a to b in lanes that are marked. */
+INLINE void raise(ki_lanes *a, const ki_lanes *b, const ki_words *marked)
 {
-    marks which = *a > *b;
+    marks which = (*b > *a) & (marks)*marked;
 
-    *a = (ki_lanes)(((marks)*a & which) | ((marks)*b & ~which));
+    *a = (ki_lanes)(((marks)*b & which) | ((marks)*a & ~which));
 }
 
 /* One kind of line on its way. */
@@ -100,7 +101,7 @@ INLINE void flow_lines(stream *s, const map *m, size_t from, size_t to,
         }
         used += keep & sizeof(ki_line);
         most -= margin;
-        raise(&cut, &most);
+        raise(&cut, &most, &keep);
     }
     s->cut = cut;
     s->used = used;

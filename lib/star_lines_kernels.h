@@ -78,6 +78,7 @@ typedef struct ki_lines_cell {
     bool of_grid;
     size_t point, points;
     size_t line[2], lines[2];
+    double loss; /* no line dropped on the way was better by more, anywhere */
 } ki_lines_cell;
 
 /* The parts that a cell is split in, all of them made at once. */
@@ -85,6 +86,15 @@ typedef struct ki_lines_split {
     ki_lines_cell part[KI_LINES_PARTS];
     size_t left; /* parts not searched yet; the last one is next */
 } ki_lines_split;
+
+/* The leaves where a scout saw what may tie for the best. */
+enum { KI_LINES_FINDS = 64 };
+typedef struct ki_lines_finds {
+    ki_lines_cell leaf[KI_LINES_FINDS];
+    double most[KI_LINES_FINDS]; /* no excess in the leaf is above */
+    size_t count;
+    bool too_many; /* then the list says nothing */
+} ki_lines_finds;
 
 /* What one thread works with. */
 typedef struct ki_lines_worker {
@@ -100,7 +110,9 @@ typedef struct ki_lines_worker {
     uint32_t *start; /* leaf: the first line that a column's point is below */
     size_t leaf;     /* columns of a cell that is not split any more */
     double factor;   /* boxes below factor * lower are of no interest; 1: exact */
-    double work;     /* lines looked at */
+    bool scout;      /* drop what is hardly better, and note where: see thin.c */
+    ki_lines_finds finds;
+    double work; /* lines looked at */
 } ki_lines_worker;
 
 koksma_status ki_lines_worker_begin(ki_lines_worker *w, const ki_lines_grid *g,
@@ -152,9 +164,21 @@ typedef struct ki_lines_flow {
 /* Hand down the points, and of the lines those that rise: the first filter. */
 void ki_lines_flow_down(ki_lines_flow *f, const ki_lines_range *r);
 
-/* What the other filters leave of m lines of a part; they move down to `out`. */
+/* What the other filters leave of m lines of a part; they move down to `out`.
+ * *longest rises to the longest run of neighbours dropped. */
 size_t ki_lines_thin(ki_line *out, ki_line *line, size_t m, const ki_lines_range *r,
-                     size_t part, bool closed);
+                     size_t part, size_t *longest, bool closed);
+
+/* The excess that a box must have to matter. */
+static inline double ki_lines_cut(const ki_lines_worker *w)
+{
+    const ki_best *b = w->best;
+
+    return (double)w->grid->n * (b->proven * w->factor - b->slack);
+}
+
+/* Whether the finds, if they are not too many, have a leaf in the cell. */
+bool ki_lines_found_in(const ki_lines_worker *w, const ki_lines_cell *c);
 
 /* Offer all corners of the cell that may matter.  Returns false without memory. */
 bool ki_lines_leaf(ki_lines_worker *w, const ki_lines_cell *c);

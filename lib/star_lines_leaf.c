@@ -12,22 +12,68 @@ typedef int64_t mask __attribute__((vector_size(BLOCK * 8), aligned(8)));
 
 static size_t whole_blocks(size_t m) { return (m + BLOCK - 1) / BLOCK * BLOCK; }
 
-/* Offer the boxes of one column that are above the bar. */
-static void offer_column(ki_lines_worker *w, const uint32_t *q, double t, size_t m,
-                         bool closed)
+/* Offer the boxes of one column that are above the bar; returns the most of all. */
+static double offer_column(ki_lines_worker *w, const uint32_t *q, double t, size_t m,
+                           bool closed)
 {
     const ki_lines_grid *g = w->grid;
-    double corner[KI_LINES_AXES + 1];
+    double corner[KI_LINES_AXES + 1], most = -HUGE_VAL;
 
     for (size_t k = 0; k < g->axes; k++)
         corner[k] = g->side[k][q[k]];
     for (size_t j = 0; j < m; j++) {
         double excess = t * w->y[j] - w->c[j];
 
-        if ((closed ? -excess : excess) <= (double)g->n * w->best->bar) continue;
+        if (closed) excess = -excess;
+        most = fmax(most, excess);
+        if (excess <= (double)g->n * w->best->bar) continue;
         corner[g->axes] = w->y[j];
         ki_best_offer(w->best, corner, (size_t)w->c[j], closed);
     }
+    return most;
+}
+
+/* Forget the finds that others have since surpassed. */
+static void sift(ki_lines_worker *w)
+{
+    ki_lines_finds *f = &w->finds;
+    size_t kept = 0;
+
+    for (size_t i = 0; i < f->count; i++)
+        if (f->most[i] > ki_lines_cut(w)) {
+            f->most[kept] = f->most[i];
+            f->leaf[kept++] = f->leaf[i];
+        }
+    f->count = kept;
+}
+
+/* A scout has dropped lines that are better by up to the cell's loss. */
+static void note(ki_lines_worker *w, const ki_lines_cell *c, double most)
+{
+    ki_lines_finds *f = &w->finds;
+
+    most += c->loss;
+    if (!w->scout || f->too_many || most <= ki_lines_cut(w)) return;
+    if (f->count == KI_LINES_FINDS) sift(w);
+    f->too_many = f->count == KI_LINES_FINDS;
+    if (f->too_many) return;
+    f->leaf[f->count] = *c;
+    f->most[f->count++] = most;
+}
+
+bool ki_lines_found_in(const ki_lines_worker *w, const ki_lines_cell *c)
+{
+    const ki_lines_finds *f = &w->finds;
+
+    for (size_t i = 0; i < f->count; i++) {
+        bool overlap = f->most[i] > ki_lines_cut(w);
+
+        for (size_t k = 0; k < w->grid->axes; k++)
+            overlap = overlap && c->low[k] < f->leaf[i].high[k] &&
+                      f->leaf[i].low[k] < c->high[k];
+        if (overlap) return true;
+    }
+    return f->too_many;
 }
 
 /* Whether a line of whole blocks is above the cut.  sign is -1 for closed boxes. */
@@ -101,20 +147,21 @@ static bool sweep_slab(ki_lines_worker *w, const ki_lines_cell *c, bool closed)
     const ki_lines_grid *g = w->grid;
     const ki_line *line = w->line + c->line[closed];
     size_t m = c->lines[closed], all = whole_blocks(m);
-    double sign = closed ? -1.0 : 1.0;
+    double sign = closed ? -1.0 : 1.0, most = -HUGE_VAL;
 
     if (m == 0) return true;
     if (!take_apart(w, line, m, closed)) return false;
     find_starts(w, c, line, m);
     for (uint32_t i = 0; i < c->high[0] - c->low[0]; i++) {
         uint32_t q[KI_LINES_AXES] = {c->low[0] + i};
-        double t = ki_lines_slope(g, q), cut = (double)g->n * w->best->bar;
+        double t = ki_lines_slope(g, q), cut = (double)g->n * w->best->bar - c->loss;
 
         if (closed) add_point(w->c, w->start[i], all);
         if (some_above(w->y, w->c, all, t, sign, cut))
-            offer_column(w, q, t, m, closed);
+            most = fmax(most, offer_column(w, q, t, m, closed));
         if (!closed) add_point(w->c, w->start[i], all);
     }
+    note(w, c, most);
     w->work += (double)m * (double)(c->high[0] - c->low[0]);
     return true;
 }
@@ -146,7 +193,7 @@ static bool sweep_cell(ki_lines_worker *w, const ki_lines_cell *c, bool closed)
     for (q[0] = c->low[0]; q[0] < c->high[0]; q[0]++)
         for (q[1] = c->low[1]; q[1] < c->high[1]; q[1]++) {
             count_column(w, c, q, closed);
-            offer_column(w, q, ki_lines_slope(g, q), m, closed);
+            note(w, c, offer_column(w, q, ki_lines_slope(g, q), m, closed));
             w->work += (double)(m + c->points);
         }
     return true;

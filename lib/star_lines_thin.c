@@ -24,10 +24,11 @@ INLINE size_t keep_records_back(ki_line *line, size_t m, double slope,
     for (size_t j = m; j-- > 0;) {
         ki_line l = line[j];
         double u = least(l, slope, closed), next = u - margin;
+        bool keep = u > cut;
 
         line[at - 1] = l;
-        at -= u > cut;
-        cut = next > cut ? next : cut;
+        at -= keep;
+        cut = keep & (next > cut) ? next : cut;
     }
     return m - at;
 }
@@ -43,10 +44,10 @@ INLINE double above(ki_line a, ki_line b, ki_line c, bool closed)
 }
 
 INLINE size_t keep_hull(ki_line *out, const ki_line *line, size_t m, double margin,
-                        bool closed)
+                        size_t *longest, bool closed)
 {
     ki_line a, b;
-    size_t kept = 0;
+    size_t kept = 0, run = 0;
 
     if (m == 0) return 0;
     a = line[0];
@@ -61,6 +62,8 @@ INLINE size_t keep_hull(ki_line *out, const ki_line *line, size_t m, double marg
 
         out[kept] = b;
         kept += !drop;
+        run = drop ? run + 1 : 0;
+        *longest = run > *longest ? run : *longest;
         a = drop ? a : b;
         b = c;
     }
@@ -69,16 +72,16 @@ INLINE size_t keep_hull(ki_line *out, const ki_line *line, size_t m, double marg
 }
 
 INLINE size_t thin(ki_line *out, ki_line *line, size_t m, double slope,
-                   double margin, bool closed)
+                   double margin, size_t *longest, bool closed)
 {
     size_t kept = keep_records_back(line, m, slope, margin, closed);
 
-    return keep_hull(out, line + (m - kept), kept, margin, closed);
+    return keep_hull(out, line + (m - kept), kept, margin, longest, closed);
 }
 
 size_t ki_lines_thin(ki_line *out, ki_line *line, size_t m, const ki_lines_range *r,
-                     size_t part, bool closed)
+                     size_t part, size_t *longest, bool closed)
 {
-    return closed ? thin(out, line, m, r->last[part], r->margin, true)
-                  : thin(out, line, m, r->first[part], r->margin, false);
+    return closed ? thin(out, line, m, r->last[part], r->margin, longest, true)
+                  : thin(out, line, m, r->first[part], r->margin, longest, false);
 }
