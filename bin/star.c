@@ -66,9 +66,10 @@ static koksma_star_method read_method(const char *text)
 /* Returns whether the set was finished. */
 static bool measure(cli_input *input, const koksma_set *set, star_options *o)
 {
-    static const char *const names[][2] = {[KOKSMA_STAR_SWEEP] = {"sweep", "corners"},
-                                           [KOKSMA_STAR_TREE] = {"tree", "list entries"},
-                                           [KOKSMA_STAR_LINES] = {"lines", "lines"}};
+    static const char *const names[][2] = {
+        [KOKSMA_STAR_SWEEP] = {"sweep", "corners"},
+        [KOKSMA_STAR_TREE] = {"tree", "list entries"},
+        [KOKSMA_STAR_LINES] = {"lines", "lines"}};
     koksma_star_result r = {.witness.corner = malloc(set->dim * sizeof(double))};
     koksma_error err;
     koksma_status status;

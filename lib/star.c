@@ -28,13 +28,16 @@ koksma_interval koksma_box_local(const koksma_box *box, koksma_points p)
                             count_inside(box->corner, p, box->closed), box->closed);
 }
 
-/* The sweep is the plainer one, and the faster one for few corners: measured. */
+/* The sweep is the plainest one, and the fastest for few corners: measured. */
 static koksma_star_method choose(const koksma_star_opts *opts, koksma_points p)
 {
     double corners = pow((double)p.n, (double)p.dim);
+    bool lines = p.dim == 2 || p.dim == 3;
 
     if (opts->method != KOKSMA_STAR_AUTO) return opts->method;
-    return p.dim == 1 || corners <= 0x1p20 ? KOKSMA_STAR_SWEEP : KOKSMA_STAR_TREE;
+    if (p.dim == 1 || corners <= (lines ? 0x1p16 : 0x1p20))
+        return KOKSMA_STAR_SWEEP;
+    return lines ? KOKSMA_STAR_LINES : KOKSMA_STAR_TREE;
 }
 
 static koksma_status check_opts(const koksma_star_opts *opts, koksma_points p,

@@ -27,8 +27,9 @@ typedef struct koksma_box {
 } koksma_box;
 
 typedef enum koksma_star_method {
-    KOKSMA_STAR_AUTO,  /* the sweep for dim 1 and up to 2^20 corners, else the tree
-                        */
+    KOKSMA_STAR_AUTO, /* the sweep for dim 1 and for few corners (2^16 for dim 2 and
+                       * 3, else 2^20), or else lines for dim 2 and 3 and the tree
+                       * above */
     KOKSMA_STAR_SWEEP, /* visit every corner that a point can hold up */
     KOKSMA_STAR_TREE,  /* branch and bound */
     KOKSMA_STAR_LINES  /* divide and conquer with filtered lines, dim 2 and 3 */
@@ -39,17 +40,17 @@ typedef struct koksma_star_result {
     koksma_box witness;        /* its local discrepancy is at least value.lower */
     koksma_star_method method; /* which one ran */
     double work; /* its steps: corners for the sweep, entries of lists of
-                  * points for the tree */
+                  * points for the tree, lines of cells for lines */
 } koksma_star_result;
 
 typedef struct koksma_star_opts {
     koksma_star_method method;
-    double
-        tolerance; /* the tree stops at upper <= (1 + tolerance) lower; 0: exact */
-    bool anytime;  /* the tree works towards that in stages, which costs up to
-                    * twice the time, but has an upper bound when it is stopped */
-    double work;   /* stop after about so many steps; 0: after KOKSMA_STAR_WORK for
-                    * the sweep, never for the tree */
+    double tolerance; /* all but the sweep stop at upper <= (1 + tolerance) lower;
+                       * 0: exact */
+    bool anytime; /* all but the sweep work towards that in stages, which costs up
+                   * to twice the time, but has an upper bound when it is stopped */
+    double work;  /* stop after about so many steps; 0: after KOKSMA_STAR_WORK for
+                   * the sweep, never for the others */
     koksma_progress *progress; /* called a few times a second; NULL: never */
     void *state;               /* handed to progress */
 } koksma_star_opts;
@@ -74,12 +75,17 @@ typedef struct koksma_star_opts {
  * Returns: KOKSMA_OK; KOKSMA_STOPPED when progress said so or the work ran out:
  *          value is then true, but wider; KOKSMA_EINVAL or KOKSMA_EDOMAIN as
  *          koksma_points_check, and for options out of range; KOKSMA_ENOMEM
- * Cost:    sweep: n log n for dim 1, n^2 for dim 2, below n^dim above; memory
- * n*dim. tree: no useful bound; measured on Halton points about n^1.5 for dim 3,
- *          n^2 for dim 4 and n^2.7 for dim 8; memory n*dim times the depth of the
- *          search at worst
+ * Cost:    as follows; memory grows like n*dim
+ *
+ *     sweep  n log n for dim 1, n^2 for dim 2, below n^dim above
+ *     tree   no useful bound; measured on Halton points about n^1.5 for dim 3, n^2
+ *            for dim 4 and n^2.7 for dim 8; memory times the depth at worst
+ *     lines  n^dim at worst; measured about n log n for dim 2, where 10^6 points
+ *            take a second or less, and n^1.7 for dim 3; 200 n bytes
+ *
  * Source:  critical corners: [Niederreiter 1992, thm 2.6] for dim 1, [Bundschuh,
- *          Zhu 1993] above; the tree is Koksma's own: lib/star_bound.c proves it */
+ *          Zhu 1993] above; the tree and the lines are Koksma's own, proven in
+ *          lib/star_bound.c and lib/star_lines_thin.c */
 koksma_status koksma_star(koksma_star_result *out, koksma_points p,
                           const koksma_star_opts *opts, koksma_error *err);
 

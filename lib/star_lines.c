@@ -86,8 +86,8 @@ static koksma_status search_stage(search *s, double factor)
     ki_lines_worker *w = ki_alloc(1, sizeof *w);
     ki_lines_cell whole = ki_lines_cell_whole(s->grid);
 
-    s->no_memory =
-        w == NULL || ki_lines_worker_begin(w, s->grid, s->best, s->leaf) != KOKSMA_OK;
+    s->no_memory = w == NULL ||
+                   ki_lines_worker_begin(w, s->grid, s->best, s->leaf) != KOKSMA_OK;
     if (!s->no_memory) {
         w->factor = factor;
         w->scout = true;

@@ -2,9 +2,9 @@
 
 #include "star_lines_kernels.h"
 
-/* All parts of a cell at once, a lane each: a point costs a few subtractions, a line
- * a few more, and what is kept is written without a branch: it is written anyway,
- * and then written over or not. */
+/* All parts of a cell at once, a lane each: a point costs a few subtractions, a
+ * line a few more, and what is kept is written without a branch: it is written
+ * anyway, and then written over or not. */
 
 enum { BLOCK = 256 };
 
@@ -27,11 +27,17 @@ INLINE void mark_below(ki_words *out, const uint32_t *point, size_t axes,
     *out = below >> 63;
 }
 
-/* Those that are surely inside, and those that may be, which go down. */
-INLINE void flow_points(ki_lines_flow *f, map *m, size_t from, size_t to,
-                        const ki_lines_range *r, size_t axes)
+INLINE void put_point(uint32_t *to, const uint32_t *point, size_t axes)
 {
-    ki_words sum = m->sum[0];
+    to[0] = point[0];
+    if (axes == 2) to[1] = point[1];
+}
+
+/* Those that are surely inside, and those that may be, which go down. */
+INLINE void flow_points(const ki_lines_flow *f, ki_words *kept, map *m, size_t from,
+                        size_t to, const ki_lines_range *r, size_t axes)
+{
+    ki_words sum = m->sum[0], used = *kept;
 
     for (size_t i = from; i < to; i++) {
         const uint32_t *point = f->point + i * axes;
@@ -42,12 +48,13 @@ INLINE void flow_points(ki_lines_flow *f, map *m, size_t from, size_t to,
         unsure -= in;
         sum += in + (unsure << 32);
         m->sum[i - from + 1] = sum;
-        for (size_t q = 0; q < KI_LINES_PARTS; q++) {
-            memcpy(f->to_point[q] + f->points_kept[q] * axes, point,
-                   axes * sizeof *point);
-            f->points_kept[q] += unsure[q];
-        }
+        put_point(f->to_point[0] + used[0] * axes, point, axes);
+        put_point(f->to_point[1] + used[1] * axes, point, axes);
+        put_point(f->to_point[2] + used[2] * axes, point, axes);
+        put_point(f->to_point[3] + used[3] * axes, point, axes);
+        used += unsure;
     }
+    *kept = used;
 }
 
 /* Counts, below 2^32, as the lower half of a double's bits with 2^52 above. */
@@ -75,6 +82,13 @@ typedef struct stream {
     ki_lanes cut;
 } stream;
 
+INLINE void put_line(char *to, double y, uint64_t tally)
+{
+    ki_line l = {y, tally};
+
+    memcpy(to, &l, sizeof l);
+}
+
 /* The lines with up to `to` points below them. */
 INLINE void flow_lines(stream *s, const map *m, size_t from, size_t to,
                        const ki_lines_range *r, bool closed)
@@ -94,11 +108,10 @@ INLINE void flow_lines(stream *s, const map *m, size_t from, size_t to,
         most = closed ? most - first * l.y : last * l.y - most;
         keep = (ki_words)(most > cut);
 
-        for (size_t q = 0; q < KI_LINES_PARTS; q++) {
-            ki_line down = {l.y, tally[q]};
-
-            memcpy(s->to[q] + used[q], &down, sizeof down);
-        }
+        put_line(s->to[0] + used[0], l.y, tally[0]);
+        put_line(s->to[1] + used[1], l.y, tally[1]);
+        put_line(s->to[2] + used[2], l.y, tally[2]);
+        put_line(s->to[3] + used[3], l.y, tally[3]);
         used += keep & sizeof(ki_line);
         most -= margin;
         raise(&cut, &most, &keep);
@@ -108,7 +121,8 @@ INLINE void flow_lines(stream *s, const map *m, size_t from, size_t to,
     s->at = at;
 }
 
-static stream stream_of(const ki_lines_flow *f, const ki_lines_range *r, bool closed)
+static stream stream_of(const ki_lines_flow *f, const ki_lines_range *r,
+                        bool closed)
 {
     stream s = {.line = f->line[closed], .lines = f->lines[closed], .cut = r->cut};
 
@@ -121,17 +135,17 @@ KI_LINES_CLONES
 void ki_lines_flow_down(ki_lines_flow *f, const ki_lines_range *r)
 {
     stream open = stream_of(f, r, false), closed = stream_of(f, r, true);
+    ki_words kept = {0};
     map m;
 
-    m.sum[0] = (ki_words){0};
-    memset(f->points_kept, 0, sizeof f->points_kept);
+    m.sum[0] = kept;
     for (size_t from = 0;;) {
         size_t to = f->points - from < BLOCK ? f->points : from + BLOCK;
 
         if (f->axes == 1)
-            flow_points(f, &m, from, to, r, 1);
+            flow_points(f, &kept, &m, from, to, r, 1);
         else
-            flow_points(f, &m, from, to, r, 2);
+            flow_points(f, &kept, &m, from, to, r, 2);
         flow_lines(&open, &m, from, to, r, false);
         flow_lines(&closed, &m, from, to, r, true);
         if (to == f->points) break;
@@ -139,6 +153,7 @@ void ki_lines_flow_down(ki_lines_flow *f, const ki_lines_range *r)
         from = to;
     }
     for (size_t q = 0; q < KI_LINES_PARTS; q++) {
+        f->points_kept[q] = kept[q];
         f->lines_kept[0][q] = open.used[q] / sizeof(ki_line);
         f->lines_kept[1][q] = closed.used[q] / sizeof(ki_line);
     }

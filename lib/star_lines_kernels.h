@@ -10,8 +10,7 @@
 /* Kernels that profit from wide vectors come in versions; the one that the machine
  * can run is chosen as the program starts. */
 #ifdef HAVE_TARGET_CLONES
-#define KI_LINES_CLONES                                                            \
-    __attribute__((target_clones("avx512f", "avx2", "default")))
+#define KI_LINES_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
 #define KI_LINES_CLONES
 #endif
@@ -38,7 +37,8 @@
  *
  * Tied coordinates need no special case: in a run of equal ones the first rank
  * has the right count for an open box and the last for a closed one, and the
- * others only understate the excess.  (Closed boxes of rank n are real boxes too.) */
+ * others only understate the excess.  (Closed boxes of rank n are real boxes too.)
+ */
 
 enum { KI_LINES_AXES = 2, KI_LINES_PARTS = 4, KI_LINES_DEPTH = 72 };
 

@@ -13,8 +13,8 @@ typedef int64_t mask __attribute__((vector_size(BLOCK * 8), aligned(8)));
 static size_t whole_blocks(size_t m) { return (m + BLOCK - 1) / BLOCK * BLOCK; }
 
 /* Offer the boxes of one column that are above the bar; returns the most of all. */
-static double offer_column(ki_lines_worker *w, const uint32_t *q, double t, size_t m,
-                           bool closed)
+static double offer_column(ki_lines_worker *w, const uint32_t *q, double t,
+                           size_t m, bool closed)
 {
     const ki_lines_grid *g = w->grid;
     double corner[KI_LINES_AXES + 1], most = -HUGE_VAL;
@@ -154,7 +154,8 @@ static bool sweep_slab(ki_lines_worker *w, const ki_lines_cell *c, bool closed)
     find_starts(w, c, line, m);
     for (uint32_t i = 0; i < c->high[0] - c->low[0]; i++) {
         uint32_t q[KI_LINES_AXES] = {c->low[0] + i};
-        double t = ki_lines_slope(g, q), cut = (double)g->n * w->best->bar - c->loss;
+        double t = ki_lines_slope(g, q),
+               cut = (double)g->n * w->best->bar - c->loss;
 
         if (closed) add_point(w->c, w->start[i], all);
         if (some_above(w->y, w->c, all, t, sign, cut))

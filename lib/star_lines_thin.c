@@ -1,11 +1,48 @@
 #include "star_lines_kernels.h"
 
+/* Which lines matter, and why.
+ *
+ * In a cell, line j of open boxes has the excess
+ *
+ *     f_j(column) = t y_j - c_j - a_j,    0 <= a_j <= p_j,    first <= t <= last
+ *
+ * where c_j counts the points below it that are surely inside, p_j those that may
+ * be, and a_j those of them that are.  Lines are in the order of their heights, so
+ * of k < j the points below k are below j too: 0 <= a_j - a_k <= p_j - p_k.
+ *
+ *   rise  f_j - f_k <= (last y_j - c_j) - (last y_k - c_k) for k < j: line k beats
+ * j everywhere if last y - c does not rise from k to j.  (flow.c) fall  f_k - f_j
+ * >= (first y_k - c_k - p_k) - (first y_j - c_j - p_j) for k > j: line k beats j if
+ * this does not fall from j to k. hull  of i < j < k with p_i = p_j = p_k the three
+ * a are the same, and f_j less a mean of f_i and f_k with the weights that make up
+ * y_j does not depend on the column: one of them beats j if (y_j, c_j) is not below
+ * the segment between theirs.
+ *
+ * Closed boxes have f_j = c_j + a_j - t y_j instead; then c + p - first y is to
+ * rise, and c - last y to fall.  The filters run one after the other, so that a
+ * line which beats another is still there, or a line that beats it in turn.
+ *
+ * Rounding.  With u = 2^-53, a slope is off by dim-1 roundings, each of at most n
+ * u; its product with y and the difference from a count round by n u more each:
+ * what the filters compare is off by (dim+1) n u, and a comparison by 2(dim+1) n u.
+ * In the hull the differences of heights, the products and their difference each
+ * round, relatively, by u: together by less than 6 n u times the length.  The
+ * margin is n slack = 4(dim+2) n u.  So a line that is dropped by more than the
+ * margin is worse than another, in every column, by something, and no box on it can
+ * be the witness: ties are kept.  A line below the cut is worse than the best box
+ * by the margin less (dim+2) n u.
+ *
+ * A scout has a negative margin, and drops lines that are better by up to that: by
+ * less than two margins with the rounding.  Lines that the first two filters go by
+ * are kept themselves, the cut rises at a line that is kept alone; the hull may
+ * drop neighbours one after the other, each for a next one.  So a cell's loss grows
+ * by two margins for either filter and for each of the longest run of neighbours.
+ * What is above the cut less the loss is noted; so no box that may be the witness
+ * is in a leaf that a scout does not note, or whose cell it has dropped. */
+
 #define INLINE static inline __attribute__((always_inline))
 
-INLINE double inside_of(uint64_t tally)
-{
-    return (double)(int32_t)(uint32_t)tally;
-}
+INLINE double inside_of(uint64_t tally) { return (double)(int32_t)(uint32_t)tally; }
 
 /* What a column and a line have at least. */
 INLINE double least(ki_line l, double slope, bool closed)
@@ -14,7 +51,7 @@ INLINE double least(ki_line l, double slope, bool closed)
                   : slope * l.y - inside_of(l.tally + (l.tally >> 32));
 }
 
-/* From the right, and to the right end; returns how many. */
+/* Keep what falls: from the right, and to the right end; returns how many. */
 INLINE size_t keep_records_back(ki_line *line, size_t m, double slope,
                                 double margin, bool closed)
 {

@@ -8,7 +8,6 @@
 
 enum { MOST = 13, DIGITS = 6, DIGIT = 11 };
 
-
 /* Doubles from 0 to 1 are ordered like their bits, of which the top two are 0. */
 static inline unsigned bits_digit(double x, unsigned place)
 {
@@ -116,9 +115,10 @@ ki_keyed *ki_sort_axis(koksma_points p, size_t k, ki_keyed *a, ki_keyed *b)
     if (p.n < 64)
         load(a, p, k);
     else
-        sort_leading(a, b, p, k, p.n < (size_t)1 << 16   ? 8
-                                 : p.n < (size_t)1 << 23 ? 11
-                                                         : MOST);
+        sort_leading(a, b, p, k,
+                     p.n < (size_t)1 << 16   ? 8
+                     : p.n < (size_t)1 << 23 ? 11
+                                             : MOST);
     if (insert_all(a, p.n)) return a;
     load(a, p, k);
     return sort_bits(a, b, p.n);

@@ -31,10 +31,10 @@ typedef struct level {
 } level;
 
 typedef struct scratch {
-    level *levels;  /* dim of them; the last has no list but `last` */
-    double *last;   /* m coordinates, and a 1 while it is swept */
-    double *rank;   /* rank[j] = j/n */
-    double *corner; /* the corner being visited */
+    level *levels;    /* dim of them; the last has no list but `last` */
+    double *last;     /* m coordinates, and a 1 while it is swept */
+    double *rank;     /* rank[j] = j/n */
+    double *corner;   /* the corner being visited */
     ki_keyed *sorted; /* room for 2n: all points by coordinate 0 */
 } scratch;
 

@@ -65,6 +65,15 @@ static koksma_status star_job(koksma_error *err)
     return koksma_star(&r, (koksma_points){x, 2, 3}, NULL, err);
 }
 
+static koksma_status lines_job(koksma_error *err)
+{
+    static const double x[] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6};
+    koksma_star_opts opts = {.method = KOKSMA_STAR_LINES};
+    koksma_star_result r = {0};
+
+    return koksma_star(&r, (koksma_points){x, 3, 2}, &opts, err);
+}
+
 static koksma_status gen_job(koksma_error *err)
 {
     koksma_gen_opts o = {.dim = 3, .n = 8, .scramble = KOKSMA_SCRAMBLE_DIGITS};
@@ -169,6 +178,7 @@ static koksma_status fit_job(koksma_error *err)
 START_TEST(every_allocation_may_fail)
 {
     ck_assert_int_ge(exhaust(star_job), 2);
+    ck_assert_int_ge(exhaust(lines_job), 8);
     ck_assert_int_ge(exhaust(gen_job), 5);
     ck_assert_int_ge(exhaust(sobol_job), 2);
     ck_assert_int_ge(exhaust(text_job), 4);

@@ -60,10 +60,11 @@ static answer solve_by(koksma_points p, koksma_star_method method)
  * the witness. */
 static void check_same(answer a, answer b, koksma_points p, uint64_t round)
 {
-    ck_assert_msg(a.value.lower == b.value.lower && a.value.upper == b.value.upper,
-                  "KOKSMA_TEST_SEED=%llu set %llu n %zu dim %zu: [%a, %a], [%a, %a]",
-                  (unsigned long long)oracle_seed(), (unsigned long long)round, p.n,
-                  p.dim, a.value.lower, a.value.upper, b.value.lower, b.value.upper);
+    ck_assert_msg(
+        a.value.lower == b.value.lower && a.value.upper == b.value.upper,
+        "KOKSMA_TEST_SEED=%llu set %llu n %zu dim %zu: [%a, %a], [%a, %a]",
+        (unsigned long long)oracle_seed(), (unsigned long long)round, p.n, p.dim,
+        a.value.lower, a.value.upper, b.value.lower, b.value.upper);
     for (size_t k = 0; k < p.dim; k++)
         ck_assert_msg(a.corner[k] == b.corner[k],
                       "KOKSMA_TEST_SEED=%llu set %llu n %zu dim %zu: %a, %a",
@@ -96,7 +97,8 @@ static double coordinate(oracle_rng *rng, size_t kind, size_t n, size_t i, size_
     case 3: return oracle_below(rng, 3) > 0 ? u : (double)oracle_below(rng, 2);
     case 4: return floor(u * 16.0) / 16.0;
     case 5: return u * u * u * u * u * u * u * u;
-    case 6: return k == 0 ? (double)i / (double)n : fmod((double)(i * 5 * k), 8) / 8;
+    case 6:
+        return k == 0 ? (double)i / (double)n : fmod((double)(i * 5 * k), 8) / 8;
     case 7:
         return k == 0 ? (double)i / (double)n
                       : fmod((double)(i * (levels + k)) / (double)n, 1.0);
@@ -144,7 +146,8 @@ START_TEST(as_the_definition_says)
 
     for (uint64_t round = 0; round < 400 * oracle_scale(); round++) {
         size_t dim = 2 + (size_t)(round % 2);
-        koksma_points p = make_set(x, round / 2 * KINDS + 4, dim, dim == 2 ? 12 : 6);
+        koksma_points p =
+            make_set(x, round / 2 * KINDS + 4, dim, dim == 2 ? 12 : 6);
         double least[3];
         oracle_ratio truth = oracle_star(p, least);
 
@@ -176,9 +179,9 @@ static double *generate(const char *family, size_t dim, size_t n, uint64_t start
 static const struct {
     const char *family;
     size_t dim, n;
-} large[] = {{"halton", 2, 3000}, {"sobol", 2, 3000},     {"random", 2, 4000},
-             {"hammersley", 2, 2500}, {"halton", 3, 700}, {"sobol", 3, 700},
-             {"random", 3, 2000}, {"hammersley", 3, 700}};
+} large[] = {{"halton", 2, 3000},     {"sobol", 2, 3000},    {"random", 2, 4000},
+             {"hammersley", 2, 2500}, {"halton", 3, 700},    {"sobol", 3, 700},
+             {"random", 3, 2000},     {"hammersley", 3, 700}};
 
 START_TEST(as_the_tree_says)
 {
@@ -288,10 +291,10 @@ START_TEST(grids)
 }
 END_TEST
 
-/* On a line, where the sweep sorts and no more, the first N points of van der Corput
- * have N D* = sum over r >= 1 of the distance of N/2^r to the nearest integer.
- * Crowded into [0, 2^-40) they go the other way through the sort; the empty rest
- * then has D* = 1 - x for the last of them, x. */
+/* On a line, where the sweep sorts and no more, the first N points of van der
+ * Corput have N D* = sum over r >= 1 of the distance of N/2^r to the nearest
+ * integer. Crowded into [0, 2^-40) they go the other way through the sort; the
+ * empty rest then has D* = 1 - x for the last of them, x. */
 START_TEST(van_der_corput_sorted)
 {
     static double x[40000];
@@ -322,7 +325,8 @@ START_TEST(van_der_corput_sorted)
 }
 END_TEST
 
-/* Halton's points in a thousandth of the square, and spread over 300 powers of 2. */
+/* Halton's points in a thousandth of the square, and spread over 300 powers of 2.
+ */
 START_TEST(crowded_and_geometric)
 {
     size_t n = 2000;
@@ -434,9 +438,8 @@ START_TEST(tolerance_is_kept)
         for (int i = 0; i < 8; i++) {
             double e = tolerances[i / 2], corner[3];
             koksma_star_result r = {.witness.corner = corner};
-            koksma_star_opts opts = {.method = KOKSMA_STAR_LINES,
-                                     .tolerance = e,
-                                     .anytime = i % 2 == 1};
+            koksma_star_opts opts = {
+                .method = KOKSMA_STAR_LINES, .tolerance = e, .anytime = i % 2 == 1};
 
             ck_assert_int_eq(koksma_star(&r, p, &opts, NULL), KOKSMA_OK);
             ck_assert(r.value.lower <= exact.value.lower);
