@@ -84,7 +84,8 @@ static void set_range(const ki_lines_worker *w, const ki_lines_split *s,
     double margin = (double)w->grid->n * w->best->slack;
 
     memset(r, 0, sizeof *r);
-    r->margin = w->scout ? -margin : margin;
+    r->margin = w->scout ? 0.0 : margin;
+    r->hull_margin = w->scout ? -margin : margin;
     for (size_t q = 0; q < KI_LINES_PARTS; q++)
         r->cut[q] = HUGE_VAL;
     for (size_t q = 0; q < s->left; q++) {
@@ -159,7 +160,7 @@ static void settle_parts(ki_lines_worker *w, const ki_lines_flow *f,
             line += s->part[q].lines[closed];
         }
     for (size_t q = 0; q < s->left && w->scout; q++)
-        s->part[q].loss = loss - 2.0 * r->margin * (double)(2 + longest[q]);
+        s->part[q].loss = loss - 2.0 * r->hull_margin * (double)(2 + longest[q]);
 }
 
 bool ki_lines_cell_split(ki_lines_worker *w, const ki_lines_cell *whole,

@@ -65,10 +65,9 @@ INLINE void count(ki_lanes *out, const ki_words *tally)
     *out = (ki_lanes)bits - 0x1p52;
 }
 
-/* Raise a to b in lanes that are marked. */
-INLINE void raise(ki_lanes *a, const ki_lanes *b, const ki_words *marked)
+INLINE void raise(ki_lanes *a, const ki_lanes *b)
 {
-    marks which = (*b > *a) & (marks)*marked;
+    marks which = *b > *a;
 
     *a = (ki_lanes)(((marks)*b & which) | ((marks)*a & ~which));
 }
@@ -114,7 +113,7 @@ INLINE void flow_lines(stream *s, const map *m, size_t from, size_t to,
         put_line(s->to[3] + used[3], l.y, tally[3]);
         used += keep & sizeof(ki_line);
         most -= margin;
-        raise(&cut, &most, &keep);
+        raise(&cut, &most);
     }
     s->cut = cut;
     s->used = used;

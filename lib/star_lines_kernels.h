@@ -140,12 +140,12 @@ typedef double ki_lanes __attribute__((vector_size(8 * KI_LINES_PARTS)));
 typedef uint64_t ki_words __attribute__((vector_size(8 * KI_LINES_PARTS)));
 
 /* What the filters go by.  A line below the cut does not matter; rounding takes
- * less than the margin from a difference of excesses. */
+ * less than the margins from a difference of excesses. */
 typedef struct ki_lines_range {
     ki_words low[KI_LINES_AXES], high[KI_LINES_AXES];
     ki_lanes first, last; /* slopes at a part's first and last column */
     ki_lanes cut;
-    double margin;
+    double margin, hull_margin;
 } ki_lines_range;
 
 /* The points and lines of a cell, and where those of its parts go: each part has

@@ -61,11 +61,10 @@ INLINE size_t keep_records_back(ki_line *line, size_t m, double slope,
     for (size_t j = m; j-- > 0;) {
         ki_line l = line[j];
         double u = least(l, slope, closed), next = u - margin;
-        bool keep = u > cut;
 
         line[at - 1] = l;
-        at -= keep;
-        cut = keep & (next > cut) ? next : cut;
+        at -= u > cut;
+        cut = next > cut ? next : cut;
     }
     return m - at;
 }
@@ -109,16 +108,16 @@ INLINE size_t keep_hull(ki_line *out, const ki_line *line, size_t m, double marg
 }
 
 INLINE size_t thin(ki_line *out, ki_line *line, size_t m, double slope,
-                   double margin, size_t *longest, bool closed)
+                   const ki_lines_range *r, size_t *longest, bool closed)
 {
-    size_t kept = keep_records_back(line, m, slope, margin, closed);
+    size_t kept = keep_records_back(line, m, slope, r->margin, closed);
 
-    return keep_hull(out, line + (m - kept), kept, margin, longest, closed);
+    return keep_hull(out, line + (m - kept), kept, r->hull_margin, longest, closed);
 }
 
 size_t ki_lines_thin(ki_line *out, ki_line *line, size_t m, const ki_lines_range *r,
                      size_t part, size_t *longest, bool closed)
 {
-    return closed ? thin(out, line, m, r->last[part], r->margin, longest, true)
-                  : thin(out, line, m, r->first[part], r->margin, longest, false);
+    return closed ? thin(out, line, m, r->last[part], r, longest, true)
+                  : thin(out, line, m, r->first[part], r, longest, false);
 }
