@@ -66,7 +66,7 @@ static void run(search *s, ki_lines_worker *w, const ki_lines_cell *whole)
     if (s->no_memory) return;
     for (;;) {
         ki_lines_split *split = &w->path[depth];
-        const ki_lines_cell *c = &split->part[split->left - 1];
+        const ki_lines_cell *c;
 
         if (split->left == 0) {
             if (depth-- == 0) return;
@@ -74,7 +74,7 @@ static void run(search *s, ki_lines_worker *w, const ki_lines_cell *whole)
         }
         s->stopped = told_to_stop(s, w);
         if (s->stopped) return;
-        split->left--;
+        c = &split->part[--split->left];
         if (examine(s, w, c)) s->no_memory = !ki_lines_cell_split(w, c, ++depth);
         if (s->no_memory) return;
     }

@@ -131,7 +131,7 @@ static stream stream_of(const ki_lines_flow *f, const ki_lines_range *r,
 }
 
 KI_LINES_CLONES
-void ki_lines_flow_down(ki_lines_flow *f, const ki_lines_range *r)
+static void flow_down(ki_lines_flow *f, const ki_lines_range *r)
 {
     stream open = stream_of(f, r, false), closed = stream_of(f, r, true);
     ki_words kept = {0};
@@ -156,4 +156,9 @@ void ki_lines_flow_down(ki_lines_flow *f, const ki_lines_range *r)
         f->lines_kept[0][q] = open.used[q] / sizeof(ki_line);
         f->lines_kept[1][q] = closed.used[q] / sizeof(ki_line);
     }
+}
+
+void ki_lines_flow_down(ki_lines_flow *f, const ki_lines_range *r)
+{
+    flow_down(f, r);
 }

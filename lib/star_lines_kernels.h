@@ -8,7 +8,8 @@
 #include "star_kernels.h"
 
 /* Kernels that profit from wide vectors come in versions; the one that the machine
- * can run is chosen as the program starts. */
+ * can run is chosen as the program starts.  They are static, since compilers differ
+ * in how other files are to name them. */
 #ifdef HAVE_TARGET_CLONES
 #define KI_LINES_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
 #else

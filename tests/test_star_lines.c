@@ -215,7 +215,8 @@ static void check_hammersley(unsigned m)
     a = solve_by((koksma_points){x, n, 2}, KOKSMA_STAR_LINES);
     value = (m * 3.0L + 13.0L) * (long double)n + (m % 2 == 0 ? -4.0L : 4.0L);
     value /= 9.0L * (long double)n * (long double)n;
-    ck_assert_msg(fabsl(a.value.lower - value) <= 2e-16L * value, "m = %u", m);
+    ck_assert_msg(fabsl((long double)a.value.lower - value) <= 2e-16L * value,
+                  "m = %u", m);
     ck_assert(a.value.upper - a.value.lower <= 3e-16 * a.value.upper);
     free(x);
 }
@@ -285,7 +286,7 @@ START_TEST(grids)
                 answer a = solve_by((koksma_points){x, n, dim}, KOKSMA_STAR_LINES);
 
                 value = 1.0L - side * side * (dim == 2 ? 1.0L : side);
-                ck_assert_msg(fabsl(a.value.lower - value) <= 4e-16L,
+                ck_assert_msg(fabsl((long double)a.value.lower - value) <= 4e-16L,
                               "m %zu dim %zu", m, dim);
             }
 }
@@ -306,7 +307,7 @@ START_TEST(van_der_corput_sorted)
             x[i] = 0.0;
             for (size_t rest = i, bit = 1; rest > 0; rest >>= 1, bit++)
                 x[i] += ldexp((double)(rest & 1), -(int)bit);
-            last = fmaxl(last, x[i]);
+            last = fmaxl(last, (long double)x[i]);
         }
         for (int r = 1; r < 64; r++) {
             long double part = ldexpl((long double)n, -r);
@@ -316,11 +317,12 @@ START_TEST(van_der_corput_sorted)
 
         answer a = solve_by((koksma_points){x, n, 1}, KOKSMA_STAR_SWEEP);
 
-        ck_assert(fabsl(a.value.lower - sum / n) <= 2e-16L);
+        ck_assert(fabsl((long double)a.value.lower - sum / n) <= 2e-16L);
         for (size_t i = 0; i < n; i++)
             x[i] = ldexp(x[i], -40);
         a = solve_by((koksma_points){x, n, 1}, KOKSMA_STAR_SWEEP);
-        ck_assert(fabsl(a.value.lower - (1.0L - ldexpl(last, -40))) <= 2e-16L);
+        ck_assert(fabsl((long double)a.value.lower - (1.0L - ldexpl(last, -40))) <=
+                  2e-16L);
     }
 }
 END_TEST
