@@ -10,7 +10,8 @@
 enum { PART = CLI_LONG, TRACE };
 
 static const cli_option options[] = {
-    {'m', "method", "METHOD", "auto, sweep, tree, dem or search (default auto)"},
+    {'m', "method", "METHOD",
+     "auto, sweep, tree, lines, dem or search (default auto)"},
     {'e', "tolerance", "E", "stop at upper <= (1+E) lower (default 0: exact)"},
     {'t', "time", "SECONDS", "stop then, with the interval so far"},
     {'j', "threads", "THREADS", "how many threads (default 0: one a processor)"},
@@ -33,6 +34,7 @@ static const struct {
     [KOKSMA_STAR_AUTO] = {"auto", NULL},
     [KOKSMA_STAR_SWEEP] = {"sweep", "corners"},
     [KOKSMA_STAR_TREE] = {"tree", "list entries"},
+    [KOKSMA_STAR_LINES] = {"lines", "lines"},
     [KOKSMA_STAR_DEM] = {"dem", "products"},
     [KOKSMA_STAR_SEARCH] = {"search", "points looked at"},
 };
@@ -112,7 +114,7 @@ static koksma_star_method read_method(const char *text)
 {
     for (int m = KOKSMA_STAR_AUTO; m <= KOKSMA_STAR_SEARCH; m++)
         if (strcmp(text, methods[m].name) == 0) return (koksma_star_method)m;
-    cli_usage("-m takes auto, sweep, tree, dem or search, not \"%s\"", text);
+    cli_usage("-m takes auto, sweep, tree, lines, dem or search, not \"%s\"", text);
 }
 
 /* I/M, as in 2/8. */

@@ -22,8 +22,11 @@ typedef struct bench_set {
 static const bench_set sets[] = {
     {"halton", 1, 1000000, 1, false}, {"halton", 2, 1000, 1, true},
     {"halton", 2, 10000, 1, true},    {"halton", 2, 100000, 1, false},
-    {"random", 2, 100000, 0, false},  {"halton", 3, 5000, 1, true},
-    {"halton", 3, 20000, 1, false},   {"halton", 4, 2000, 1, true},
+    {"random", 2, 100000, 0, false},  {"halton", 2, 1000000, 1, false},
+    {"sobol", 2, 1000000, 0, false},  {"hammersley", 2, 1000000, 0, false},
+    {"random", 2, 1000000, 0, false}, {"halton", 3, 5000, 1, true},
+    {"halton", 3, 20000, 1, false},   {"random", 3, 20000, 0, false},
+    {"halton", 3, 50000, 1, false},   {"halton", 4, 2000, 1, true},
     {"halton", 5, 1000, 1, true},     {"halton", 6, 500, 1, true},
     {"sobol", 8, 128, 0, true},       {"sobol", 8, 1024, 0, false},
     {"sobol", 10, 50, 0, true},       {"sobol", 10, 256, 0, false},
@@ -81,14 +84,14 @@ static void bench(const bench_set *s, const char *program)
 {
     double *x = points_of(s), started = bench_now(), seconds;
     koksma_star_result r = {0};
+    static const char *const methods[] = {"auto", "sweep", "tree", "lines"};
     char printed[64];
 
     bench_must(koksma_star(&r, (koksma_points){x, s->n, s->dim}, NULL, NULL),
                "koksma_star");
     seconds = bench_now() - started;
     printf("%s\t%zu\t%zu\t%s\t%.4g\t%.17g", s->family, s->dim, s->n,
-           r.method == KOKSMA_STAR_SWEEP ? "sweep" : "tree", seconds,
-           r.value.lower);
+           methods[r.method], seconds, r.value.lower);
     if (program != NULL && s->peer) {
         double peer = run_peer(program, s, x, printed, sizeof printed);
 

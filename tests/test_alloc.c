@@ -86,6 +86,15 @@ static koksma_status search_job(koksma_error *err)
     return star_by(KOKSMA_STAR_SEARCH, err);
 }
 
+static koksma_status lines_job(koksma_error *err)
+{
+    static const double x[] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6};
+    koksma_star_opts opts = {.method = KOKSMA_STAR_LINES};
+    koksma_star_result r = {0};
+
+    return koksma_star(&r, (koksma_points){x, 3, 2}, &opts, err);
+}
+
 static koksma_status gen_job(koksma_error *err)
 {
     koksma_gen_opts o = {.dim = 3, .n = 8, .scramble = KOKSMA_SCRAMBLE_DIGITS};
@@ -191,6 +200,7 @@ START_TEST(every_allocation_may_fail)
 {
     ck_assert_int_ge(exhaust(sweep_job), 2);
     ck_assert_int_ge(exhaust(tree_job), 20);
+    ck_assert_int_ge(exhaust(lines_job), 8);
     ck_assert_int_ge(exhaust(dem_job), 2);
     ck_assert_int_ge(exhaust(search_job), 7);
     ck_assert_int_ge(exhaust(gen_job), 5);
