@@ -61,7 +61,8 @@ typedef struct ki_cell {
     uint32_t *low, *high; /* dim ranks each, both included */
     size_t *begin, *end;  /* dim: the list of each axis, in the worker's entries:
                            * points not out along any other axis whose rank lies
-                           * in [low, high], by rank */
+                           * in [low, high], by rank (open boxes: at rank high also
+                           * some that have gone out along another since) */
     size_t live, lives;   /* in the worker's live: points nowhere out and open
                            * along an axis at least */
     size_t inside;        /* points in along every axis */
@@ -137,8 +138,10 @@ bool ki_cell_settle(ki_worker *w, ki_cell *c, bool *empty);
 void ki_cell_leave(ki_worker *w, const ki_cell *c);
 
 /* An upper bound of the deviations of all corners in the cell that are not below
- * the target; new_low and new_high get the ranges that such corners keep to.
- * Below the target, the bound says that there is none. */
+ * the target; new_low and new_high get the ranges that such corners keep to
+ * (they may cross: then settling finds the cell empty).
+ * Below the target, the bound says that there is none.  The target is 0 or more, so
+ * that no digits cancel in the least volume that matters; or -1: all corners. */
 double ki_cell_bound(ki_worker *w, const ki_cell *c, double target);
 
 /* ---- What the two halves of the bound share ---------------------------------- */

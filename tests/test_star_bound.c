@@ -251,7 +251,8 @@ static void check_state(fixture *f, const ki_cell *c)
         check_list(f, c, k);
 }
 
-/* Narrow the cell to new_low, new_high and settle it; whether it is not empty. */
+/* Narrow the cell to new_low, new_high and settle it; whether it is not empty.  The
+ * bound may have left no rank of an axis: new_low above new_high. */
 static bool narrow(fixture *f, ki_cell *c)
 {
     size_t dim = f->p.dim, size = dim * sizeof *c->low;
@@ -265,9 +266,11 @@ static bool narrow(fixture *f, ki_cell *c)
     check_standing(f, c);
     require(f, ki_cell_settle(&f->w, c, &empty), "memory");
     do
-        if (empty || !within(c->low, c->high, dim, z))
+        if (within(low, high, dim, z) &&
+            (empty || !within(c->low, c->high, dim, z)))
             require(f, !is_critical(f, z), "settling loses a corner");
     while (next_corner(low, high, dim, z));
+    require(f, empty || within(low, high, dim, c->low), "more than was asked");
     if (empty) return false;
     check_state(f, c);
     for (size_t k = 0; k < dim; k++)
@@ -357,14 +360,14 @@ static bool check_bounds(fixture *f, const ki_cell *c)
         most.upper = fmax(most.upper, v.upper);
     } while (next_corner(c->low, c->high, dim, z));
 
-    double peak = most.lower, part = oracle_dyadic(&f->rng, 10);
+    double peak = fmax(most.lower, 0.0), part = oracle_dyadic(&f->rng, 10);
 
-    check_bound(f, c, -1.0, most); /* the first: it makes room for the shares */
+    check_bound(f, c, -1.0, most); /* all corners; it makes room for shares */
     check_bound(f, c, 0.0, most);
     check_bound(f, c, nextafter(peak, 2.0), most);
     check_bound(f, c, peak + 0.01 * part, most);
     check_bound(f, c, peak, most);
-    return check_bound(f, c, peak - part * part * fabs(peak), most);
+    return check_bound(f, c, peak * (1.0 - part * part), most);
 }
 
 /* ---- Paths of cells ---------------------------------------------------------- */
