@@ -20,8 +20,8 @@ noinst_LTLIBRARIES = %D%/libcore.la
   %D%/star_climb_kernels.h %D%/star_dem.c %D%/star_dem_cell.c \
   %D%/star_dem_kernels.h %D%/star_dive.c \
   %D%/star_lines.c %D%/star_lines_cell.c %D%/star_lines_climb.c \
-  %D%/star_lines_flow.c %D%/star_lines_grid.c %D%/star_lines_kernels.h \
-  %D%/star_lines_leaf.c %D%/star_lines_thin.c \
+  %D%/star_lines_finds.c %D%/star_lines_flow.c %D%/star_lines_grid.c %D%/star_lines_kernels.h \
+  %D%/star_lines_leaf.c %D%/star_lines_tasks.c %D%/star_lines_thin.c \
   %D%/star_ranks.c %D%/star_run.c %D%/star_run_kernels.h %D%/star_search.c \
   %D%/star_sort.c %D%/star_tree.c %D%/star_tree_kernels.h
 %C%_libcore_la_CPPFLAGS = $(AM_CPPFLAGS) -I$(top_builddir)/%D%

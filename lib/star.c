@@ -41,7 +41,7 @@ static koksma_star_method choose(const koksma_star_opts *opts, koksma_points p)
     bool lines = p.dim == 2 || p.dim == 3;
 
     if (opts->method != KOKSMA_STAR_AUTO) return opts->method;
-    if (opts->parts > 1) return KOKSMA_STAR_TREE;
+    if (opts->parts > 1) return lines ? KOKSMA_STAR_LINES : KOKSMA_STAR_TREE;
     if (p.dim == 1 || corners <= (lines ? 0x1p16 : 0x1p20))
         return KOKSMA_STAR_SWEEP;
     return lines ? KOKSMA_STAR_LINES : KOKSMA_STAR_TREE;
@@ -63,8 +63,9 @@ static koksma_status check_opts(const koksma_star_opts *opts, koksma_points p,
         return ki_fail(err, KOKSMA_EINVAL, 0, "there is no part %zu of %zu",
                        opts->part, opts->parts);
     if (opts->parts > 1 && opts->method != KOKSMA_STAR_AUTO &&
-        opts->method != KOKSMA_STAR_TREE)
-        return ki_fail(err, KOKSMA_EINVAL, 0, "the tree alone is cut into parts");
+        opts->method != KOKSMA_STAR_TREE && opts->method != KOKSMA_STAR_LINES)
+        return ki_fail(err, KOKSMA_EINVAL, 0,
+                       "only the tree and the lines are cut into parts");
     if (p.n >= (size_t)1 << 31)
         return ki_fail(err, KOKSMA_EINVAL, 0, "%zu points: 2^31 are too many", p.n);
     if (opts->method == KOKSMA_STAR_LINES && p.dim != 2 && p.dim != 3)

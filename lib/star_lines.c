@@ -1,4 +1,3 @@
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,13 +14,12 @@
 enum { LEAF_SLAB = 64, LEAF_CELL = 16 };
 
 typedef struct search {
-    const ki_lines_grid *grid;
-    const koksma_star_opts *opts;
-    ki_best *best;
-    size_t leaf;
-    double upper; /* proven so far */
-    double work_before, next_report;
-    bool stopped, no_memory;
+    ki_run run;
+    ki_lines_grid grid;
+    ki_lines_worker *worker; /* one a thread */
+    ki_lines_finds known;
+    ki_lines_tasks tasks;
+    size_t part, parts;
 } search;
 
 static size_t columns(const ki_lines_worker *w, const ki_lines_cell *c)
@@ -34,91 +32,85 @@ static size_t columns(const ki_lines_worker *w, const ki_lines_cell *c)
 }
 
 /* Whether there is anything to split; a small cell is worked off here. */
-static bool examine(search *s, ki_lines_worker *w, const ki_lines_cell *c)
+static bool examine(ki_lines_worker *w, const ki_lines_cell *c)
 {
-    if (c->lines[0] + c->lines[1] == 0) return false;
-    if (!w->scout && !ki_lines_found_in(w, c)) return false;
-    if (!c->of_grid && columns(w, c) <= w->leaf) {
-        s->no_memory = !ki_lines_leaf(w, c);
-        return false;
-    }
-    return true;
+    if (!ki_lines_matters(w, c)) return false;
+    if (c->of_grid || columns(w, c) > w->sizes.leaf) return true;
+    if (!ki_lines_leaf(w, c)) ki_run_give_up(w->run);
+    return false;
 }
 
-static bool told_to_stop(search *s, const ki_lines_worker *w)
+static void split(ki_lines_worker *w, const ki_lines_cell *c, size_t depth)
 {
-    const koksma_star_opts *opts = s->opts;
-    double work = s->work_before + w->work;
-
-    if (work < s->next_report) return false;
-    s->next_report = work + 0x1p20;
-    return (opts->work > 0.0 && work > opts->work) ||
-           (opts->progress != NULL &&
-            opts->progress(opts->state, w->best->value.lower, s->upper, work) != 0);
+    if (!ki_lines_cell_split(w, c, depth)) ki_run_give_up(w->run);
 }
 
-/* Search a cell: any that a thread is given. */
-static void run(search *s, ki_lines_worker *w, const ki_lines_cell *whole)
+/* Search a cell that is to be split. */
+static void dive(ki_lines_worker *w, const ki_lines_cell *whole)
 {
     size_t depth = 0;
 
-    s->no_memory = !ki_lines_cell_split(w, whole, 0);
-    if (s->no_memory) return;
-    for (;;) {
-        ki_lines_split *split = &w->path[depth];
-        const ki_lines_cell *c;
+    split(w, whole, 0);
+    while (!ki_run_told_to_stop(w->run, &w->work)) {
+        ki_lines_split *here = &w->path[depth];
 
-        if (split->left == 0) {
+        if (here->left == 0) {
             if (depth-- == 0) return;
-            continue;
+        } else if (examine(w, &here->part[--here->left])) {
+            split(w, &here->part[here->left], ++depth);
         }
-        s->stopped = told_to_stop(s, w);
-        if (s->stopped) return;
-        c = &split->part[--split->left];
-        if (examine(s, w, c)) s->no_memory = !ki_lines_cell_split(w, c, ++depth);
-        if (s->no_memory) return;
     }
 }
 
-/* A stage: no box deviates by more than factor * the incumbent, as it ends. */
-static koksma_status search_stage(search *s, double factor)
+static void work_on(void *state, size_t thread, size_t number)
 {
-    ki_lines_worker *w = ki_alloc(1, sizeof *w);
-    ki_lines_cell whole = ki_lines_cell_whole(s->grid);
+    search *s = state;
+    ki_lines_task *task = &s->tasks.task[number];
+    ki_lines_worker *w = &s->worker[thread];
+    ki_lines_cell whole;
 
-    s->no_memory = w == NULL ||
-                   ki_lines_worker_begin(w, s->grid, s->best, s->leaf) != KOKSMA_OK;
-    if (!s->no_memory) {
-        w->factor = factor;
-        w->scout = true;
-        run(s, w, &whole);
-        w->scout = false;
-        if (factor == 1.0 && !s->stopped && !s->no_memory) run(s, w, &whole);
-        s->work_before += w->work;
-        ki_lines_worker_end(w);
-    }
-    free(w);
-    if (s->no_memory) return KOKSMA_ENOMEM;
-    if (!s->stopped)
-        s->upper =
-            fmin(s->upper, fmax(s->best->value.upper, factor * s->best->proven));
-    return KOKSMA_OK;
+    if (!ki_lines_bring_in(w, task, &whole)) ki_run_give_up(w->run);
+    free(task->memory);
+    task->memory = NULL;
+    if (!ki_team_stopped(w->run->team) && examine(w, &whole)) dive(w, &whole);
 }
 
-/* The stages make early bounds: each costs a part of the next. */
-static koksma_status search_all(search *s)
+/* How many tasks there should be: shares of equal work take many, and must not
+ * depend on the threads. */
+static size_t enough_tasks(const search *s)
 {
-    static const double stages[] = {1.0, 0.5, 0.25, 0.1, 0.05};
-    double tolerance = s->opts->tolerance;
-    koksma_status status = KOKSMA_OK;
+    size_t threads = ki_team_threads(s->run.team);
 
-    for (size_t i = 0; i < sizeof stages / sizeof stages[0]; i++)
-        if (s->opts->anytime && stages[i] > tolerance && status == KOKSMA_OK &&
-            !s->stopped)
-            status = search_stage(s, 1.0 + stages[i]);
-    if (status == KOKSMA_OK && !s->stopped)
-        status = search_stage(s, 1.0 + tolerance);
-    return status;
+    if (s->parts > 1) return 64 * s->parts;
+    return threads > 1 ? 16 * threads : 1;
+}
+
+static void pass(search *s, bool scout)
+{
+    size_t threads = ki_team_threads(s->run.team);
+
+    for (size_t i = 0; i < threads; i++) {
+        s->worker[i].scout = scout;
+        s->worker[i].finds.count = 0;
+        s->worker[i].finds.too_many = false;
+    }
+    if (!ki_lines_make_tasks(&s->tasks, s->worker, enough_tasks(s)))
+        ki_run_give_up(&s->run);
+    if (s->parts > 1) ki_lines_deal_tasks(&s->tasks, s->part, s->parts);
+    ki_team_run(s->run.team, s->tasks.count, work_on, s);
+    ki_lines_tasks_free(&s->tasks);
+}
+
+/* A scout first; where the answer is to be exact, whoever may be the witness is
+ * then looked at again. */
+static void search_stage(void *state)
+{
+    search *s = state;
+
+    pass(s, true);
+    if (s->run.factor > 1.0 || ki_team_stopped(s->run.team)) return;
+    ki_lines_gather(&s->known, s->worker, ki_team_threads(s->run.team));
+    pass(s, false);
 }
 
 /* A search that is cut short may have passed one of several tied ranks, and not
@@ -134,33 +126,60 @@ static koksma_status settle_witness(ki_best *b)
     return KOKSMA_OK;
 }
 
+static koksma_status begin(search *s, ki_best *b, const koksma_star_opts *opts,
+                           ki_lines_sizes sizes)
+{
+    s->part = opts->parts > 1 ? opts->part - 1 : 0;
+    s->parts = opts->parts > 1 ? opts->parts : 1;
+    if (ki_lines_grid_make(&s->grid, b->p) != KOKSMA_OK ||
+        ki_lines_climb(&s->grid, b) != KOKSMA_OK ||
+        ki_run_begin(&s->run, b, opts) != KOKSMA_OK)
+        return KOKSMA_ENOMEM;
+    s->worker = calloc(ki_team_threads(s->run.team), sizeof *s->worker);
+    for (size_t i = 0; i < ki_team_threads(s->run.team); i++) {
+        if (s->worker == NULL || ki_lines_worker_begin(&s->worker[i], &s->grid,
+                                                       &s->run, sizes) != KOKSMA_OK)
+            return KOKSMA_ENOMEM;
+        s->worker[i].known = &s->known;
+    }
+    return KOKSMA_OK;
+}
+
+static void end(search *s)
+{
+    if (s->worker != NULL)
+        for (size_t i = 0; i < ki_team_threads(s->run.team); i++)
+            ki_lines_worker_end(&s->worker[i]);
+    free(s->worker);
+    ki_lines_grid_free(&s->grid);
+    ki_run_end(&s->run);
+}
+
 koksma_status ki_star_lines_with(ki_best *b, const koksma_star_opts *opts,
-                                 size_t leaf, double *upper, double *work,
+                                 ki_lines_sizes sizes, double *upper, double *work,
                                  bool *stopped)
 {
-    ki_lines_grid grid;
-    search s = {.grid = &grid,
-                .opts = opts,
-                .best = b,
-                .leaf = leaf,
-                .upper = 1.0,
-                .next_report = 0x1p20};
-    koksma_status status = ki_lines_grid_make(&grid, b->p);
+    search *s = calloc(1, sizeof *s);
+    koksma_status status;
 
-    if (status != KOKSMA_OK) return status;
-    status = ki_lines_climb(&grid, b);
-    if (status == KOKSMA_OK) status = search_all(&s);
-    if (status == KOKSMA_OK && s.stopped) status = settle_witness(b);
-    ki_lines_grid_free(&grid);
-    *upper = s.upper;
-    *work = s.work_before;
-    *stopped = s.stopped;
+    if (s == NULL) return KOKSMA_ENOMEM;
+    status = begin(s, b, opts, sizes);
+    if (status == KOKSMA_OK) {
+        ki_run_stages(&s->run, search_stage, s);
+        for (size_t i = 0; i < ki_team_threads(s->run.team); i++)
+            s->run.work += s->worker[i].work;
+        status = ki_run_outcome(&s->run, upper, work, stopped);
+    }
+    if (status == KOKSMA_OK && *stopped) status = settle_witness(b);
+    end(s);
+    free(s);
     return status;
 }
 
 koksma_status ki_star_lines(ki_best *b, const koksma_star_opts *opts, double *upper,
                             double *work, bool *stopped)
 {
-    return ki_star_lines_with(b, opts, b->p.dim == 2 ? LEAF_SLAB : LEAF_CELL, upper,
-                              work, stopped);
+    ki_lines_sizes sizes = {b->p.dim == 2 ? LEAF_SLAB : LEAF_CELL, KI_LINES_FINDS};
+
+    return ki_star_lines_with(b, opts, sizes, upper, work, stopped);
 }

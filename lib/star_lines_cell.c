@@ -6,10 +6,10 @@
 #include "star_lines_kernels.h"
 
 koksma_status ki_lines_worker_begin(ki_lines_worker *w, const ki_lines_grid *g,
-                                    ki_best *best, size_t leaf)
+                                    ki_run *run, ki_lines_sizes sizes)
 {
-    *w = (ki_lines_worker){.grid = g, .best = best, .leaf = leaf, .factor = 1.0};
-    w->start = ki_alloc(leaf, sizeof *w->start);
+    *w = (ki_lines_worker){.grid = g, .run = run, .sizes = sizes};
+    w->start = ki_alloc(sizes.leaf, sizeof *w->start);
     return w->start != NULL ? KOKSMA_OK : KOKSMA_ENOMEM;
 }
 
@@ -81,7 +81,7 @@ static void make_parts(const ki_lines_grid *g, const ki_lines_cell *c,
 static void set_range(const ki_lines_worker *w, const ki_lines_split *s,
                       double loss, ki_lines_range *r)
 {
-    double margin = (double)w->grid->n * w->best->slack;
+    double margin = (double)w->grid->n * w->run->best->slack;
 
     memset(r, 0, sizeof *r);
     r->margin = w->scout ? 0.0 : margin;

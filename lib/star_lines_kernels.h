@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "star_kernels.h"
+#include "star_run_kernels.h"
 
 /* Kernels that profit from wide vectors come in versions; the one that the machine
  * can run is chosen as the program starts.  They are static, since compilers differ
@@ -25,6 +25,8 @@
  *   star_lines_flow.c    points and lines on their way into the parts of a cell
  *   star_lines_thin.c    which lines matter, and why
  *   star_lines_leaf.c    the corners of a small cell
+ *   star_lines_finds.c   where a scout saw what may be the best
+ *   star_lines_tasks.c   cells for threads and shares
  *   star_lines.c         the search
  *
  * A corner is a column, its ranks along all axes but the last, and a line, its
@@ -97,10 +99,16 @@ typedef struct ki_lines_finds {
     bool too_many; /* then the list says nothing */
 } ki_lines_finds;
 
+/* What the tests make small. */
+typedef struct ki_lines_sizes {
+    size_t leaf;  /* columns of a cell that is not split any more */
+    size_t finds; /* at most KI_LINES_FINDS */
+} ki_lines_sizes;
+
 /* What one thread works with. */
 typedef struct ki_lines_worker {
     const ki_lines_grid *grid;
-    ki_best *best;
+    ki_run *run;
     ki_lines_split path[KI_LINES_DEPTH];
     uint32_t *point; /* ranks of points, as in the grid */
     size_t room_points;
@@ -108,16 +116,16 @@ typedef struct ki_lines_worker {
     size_t room_lines;
     double *y, *c; /* the lines of a leaf, apart */
     size_t room_y, room_c;
-    uint32_t *start; /* leaf: the first line that a column's point is below */
-    size_t leaf;     /* columns of a cell that is not split any more */
-    double factor;   /* boxes below factor * lower are of no interest; 1: exact */
-    bool scout;      /* drop what is hardly better, and note where: see thin.c */
-    ki_lines_finds finds;
-    double work; /* lines looked at */
+    uint32_t *start; /* sizes.leaf: the first line that a column's point is below */
+    ki_lines_sizes sizes;
+    bool scout; /* drop what is hardly better, and note where: see thin.c */
+    ki_lines_finds finds;        /* of this scout */
+    const ki_lines_finds *known; /* of all scouts */
+    double work;                 /* lines looked at since the last report */
 } ki_lines_worker;
 
 koksma_status ki_lines_worker_begin(ki_lines_worker *w, const ki_lines_grid *g,
-                                    ki_best *best, size_t leaf);
+                                    ki_run *run, ki_lines_sizes sizes);
 void ki_lines_worker_end(ki_lines_worker *w);
 
 /* n times the product of the coordinates of a column. */
@@ -170,19 +178,52 @@ void ki_lines_flow_down(ki_lines_flow *f, const ki_lines_range *r);
 size_t ki_lines_thin(ki_line *out, ki_line *line, size_t m, const ki_lines_range *r,
                      size_t part, size_t *longest, bool closed);
 
-/* The excess that a box must have to matter. */
+/* The excess that a box must have to matter, and to be offered. */
 static inline double ki_lines_cut(const ki_lines_worker *w)
 {
-    const ki_best *b = w->best;
-
-    return (double)w->grid->n * (b->proven * w->factor - b->slack);
+    return (double)w->grid->n * (ki_run_target(w->run) - w->run->best->slack);
 }
 
-/* Whether the finds, if they are not too many, have a leaf in the cell. */
-bool ki_lines_found_in(const ki_lines_worker *w, const ki_lines_cell *c);
+static inline double ki_lines_bar(const ki_lines_worker *w)
+{
+    return (double)w->grid->n * (ki_team_peak(w->run->team) - w->run->best->slack);
+}
+
+/* Note a leaf: no excess in it is above `most`, as of what the scout has kept. */
+void ki_lines_note(ki_lines_worker *w, const ki_lines_cell *c, double most);
+
+/* Put the finds of several workers together. */
+void ki_lines_gather(ki_lines_finds *all, ki_lines_worker *worker, size_t workers);
+
+/* Whether a cell has lines, and what is known does not say that it is in vain. */
+bool ki_lines_matters(const ki_lines_worker *w, const ki_lines_cell *c);
 
 /* Offer all corners of the cell that may matter.  Returns false without memory. */
 bool ki_lines_leaf(ki_lines_worker *w, const ki_lines_cell *c);
+
+/* A cell with its points and lines apart from any worker's: the lines of open
+ * boxes, those of closed ones, the points.  The whole has no memory. */
+typedef struct ki_lines_task {
+    ki_lines_cell cell;
+    void *memory;
+} ki_lines_task;
+
+typedef struct ki_lines_tasks {
+    ki_lines_worker *worker;
+    ki_lines_task *task, *next; /* next: of the round after this one */
+    size_t count;
+} ki_lines_tasks;
+
+/* Split the whole into about so many tasks, or more.  Returns false without
+ * memory, where it may also have made the run give up. */
+bool ki_lines_make_tasks(ki_lines_tasks *tasks, ki_lines_worker *worker,
+                         size_t enough);
+void ki_lines_deal_tasks(ki_lines_tasks *tasks, size_t part, size_t parts);
+void ki_lines_tasks_free(ki_lines_tasks *tasks);
+
+/* Make a task's cell the worker's own.  Returns false without memory. */
+bool ki_lines_bring_in(ki_lines_worker *w, const ki_lines_task *t,
+                       ki_lines_cell *c);
 
 /* Offer a few corners that no step along an axis improves. */
 koksma_status ki_lines_climb(const ki_lines_grid *g, ki_best *b);
@@ -190,9 +231,9 @@ koksma_status ki_lines_climb(const ki_lines_grid *g, ki_best *b);
 /* Offer the box at corner, with a count that is right. */
 void ki_lines_recount(ki_best *b, const double *corner, bool closed);
 
-/* What ki_star_lines does, with leaves of so many columns. */
+/* What ki_star_lines does, with such sizes. */
 koksma_status ki_star_lines_with(ki_best *b, const koksma_star_opts *opts,
-                                 size_t leaf, double *upper, double *work,
+                                 ki_lines_sizes sizes, double *upper, double *work,
                                  bool *stopped);
 
 #endif

@@ -26,54 +26,11 @@ static double offer_column(ki_lines_worker *w, const uint32_t *q, double t,
 
         if (closed) excess = -excess;
         most = fmax(most, excess);
-        if (excess <= (double)g->n * w->best->bar) continue;
+        if (excess <= ki_lines_bar(w)) continue;
         corner[g->axes] = w->y[j];
-        ki_best_offer(w->best, corner, (size_t)w->c[j], closed);
+        ki_run_offer(w->run, corner, (size_t)w->c[j], closed);
     }
     return most;
-}
-
-/* Forget the finds that others have since surpassed. */
-static void sift(ki_lines_worker *w)
-{
-    ki_lines_finds *f = &w->finds;
-    size_t kept = 0;
-
-    for (size_t i = 0; i < f->count; i++)
-        if (f->most[i] > ki_lines_cut(w)) {
-            f->most[kept] = f->most[i];
-            f->leaf[kept++] = f->leaf[i];
-        }
-    f->count = kept;
-}
-
-/* A scout has dropped lines that are better by up to the cell's loss. */
-static void note(ki_lines_worker *w, const ki_lines_cell *c, double most)
-{
-    ki_lines_finds *f = &w->finds;
-
-    most += c->loss;
-    if (!w->scout || f->too_many || most <= ki_lines_cut(w)) return;
-    if (f->count == KI_LINES_FINDS) sift(w);
-    f->too_many = f->count == KI_LINES_FINDS;
-    if (f->too_many) return;
-    f->leaf[f->count] = *c;
-    f->most[f->count++] = most;
-}
-
-bool ki_lines_found_in(const ki_lines_worker *w, const ki_lines_cell *c)
-{
-    const ki_lines_finds *f = &w->finds;
-
-    for (size_t i = 0; i < f->count; i++) {
-        bool overlap = f->most[i] > ki_lines_cut(w);
-
-        for (size_t k = 0; k < w->grid->axes; k++)
-            overlap = overlap && c->low[k] < f->leaf[i].high[k] &&
-                      f->leaf[i].low[k] < c->high[k];
-        if (overlap) return true;
-    }
-    return f->too_many;
 }
 
 /* Whether a line of whole blocks is above the cut.  sign is -1 for closed boxes. */
@@ -154,15 +111,14 @@ static bool sweep_slab(ki_lines_worker *w, const ki_lines_cell *c, bool closed)
     find_starts(w, c, line, m);
     for (uint32_t i = 0; i < c->high[0] - c->low[0]; i++) {
         uint32_t q[KI_LINES_AXES] = {c->low[0] + i};
-        double t = ki_lines_slope(g, q),
-               cut = (double)g->n * w->best->bar - c->loss;
+        double t = ki_lines_slope(g, q), cut = ki_lines_bar(w) - c->loss;
 
         if (closed) add_point(w->c, w->start[i], all);
         if (some_above(w->y, w->c, all, t, sign, cut))
             most = fmax(most, offer_column(w, q, t, m, closed));
         if (!closed) add_point(w->c, w->start[i], all);
     }
-    note(w, c, most);
+    ki_lines_note(w, c, most);
     w->work += (double)m * (double)(c->high[0] - c->low[0]);
     return true;
 }
@@ -194,7 +150,8 @@ static bool sweep_cell(ki_lines_worker *w, const ki_lines_cell *c, bool closed)
     for (q[0] = c->low[0]; q[0] < c->high[0]; q[0]++)
         for (q[1] = c->low[1]; q[1] < c->high[1]; q[1]++) {
             count_column(w, c, q, closed);
-            note(w, c, offer_column(w, q, ki_lines_slope(g, q), m, closed));
+            ki_lines_note(w, c,
+                          offer_column(w, q, ki_lines_slope(g, q), m, closed));
             w->work += (double)(m + c->points);
         }
     return true;

@@ -21,7 +21,7 @@ typedef struct answer {
     bool closed;
 } answer;
 
-static answer solve_with(koksma_points p, size_t leaf)
+static answer solve_with(koksma_points p, ki_lines_sizes sizes)
 {
     koksma_star_opts opts = KOKSMA_STAR_DEFAULTS;
     answer a = {0};
@@ -30,7 +30,7 @@ static answer solve_with(koksma_points p, size_t leaf)
     bool stopped = true;
 
     ck_assert_int_eq(
-        ki_star_lines_with(&b, &opts, leaf, &a.value.upper, &work, &stopped),
+        ki_star_lines_with(&b, &opts, sizes, &a.value.upper, &work, &stopped),
         KOKSMA_OK);
     ck_assert(!stopped);
     a.value.lower = b.value.lower;
@@ -73,7 +73,8 @@ static void check_same(answer a, answer b, koksma_points p, uint64_t round)
     if (a.closed == b.closed) ck_assert_uint_eq(a.inside, b.inside);
 }
 
-static const size_t leaves[] = {1, 2, 5, 64};
+/* With no room for finds, a scout is followed by a search of everything. */
+static const ki_lines_sizes leaves[] = {{1, 64}, {2, 2}, {5, 0}, {64, 64}};
 
 static void check_leaves(koksma_points p, answer truth, uint64_t round)
 {
@@ -189,7 +190,7 @@ START_TEST(as_the_tree_says)
     koksma_points p = {x, large[_i].n, large[_i].dim};
 
     check_leaves(p, solve_by(p, KOKSMA_STAR_TREE), (uint64_t)_i);
-    check_same(solve_by(p, KOKSMA_STAR_LINES), solve_with(p, 64), p, 0);
+    check_same(solve_by(p, KOKSMA_STAR_LINES), solve_with(p, leaves[3]), p, 0);
     free(x);
 }
 END_TEST
@@ -435,7 +436,7 @@ START_TEST(tolerance_is_kept)
 
     for (uint64_t round = 0; round < 60 * oracle_scale(); round++) {
         koksma_points p = make_set(x, round, 2 + (round / KINDS) % 2, 200);
-        answer exact = solve_with(p, 5);
+        answer exact = solve_with(p, leaves[2]);
 
         for (int i = 0; i < 8; i++) {
             double e = tolerances[i / 2], corner[3];
