@@ -28,8 +28,9 @@ unit_tests = \
   %D%/test_curve %D%/test_extra %D%/test_fit %D%/test_gen %D%/test_gen_digits \
   %D%/test_integrand %D%/test_io %D%/test_io_npy %D%/test_io_npy_bad \
   %D%/test_io_number %D%/test_io_reader %D%/test_io_table %D%/test_io_write \
-  %D%/test_known %D%/test_num %D%/test_points %D%/test_rng %D%/test_star \
-  %D%/test_star_bound %D%/test_star_methods %D%/test_star_search
+  %D%/test_known %D%/test_num %D%/test_part %D%/test_points %D%/test_rng \
+  %D%/test_star %D%/test_star_bound %D%/test_star_methods %D%/test_star_search \
+  %D%/test_star_threads
 LDADD = %D%/liboracle.la lib/libcore.la $(CHECK_LIBS)
 
 
