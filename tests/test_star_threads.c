@@ -19,15 +19,12 @@ static const struct source {
     const char *family;
     size_t dim, n, levels;
 } sources[] = {
-    {"random", 2, 400, 0},       {"random", 4, 150, 0},
-    {"random", 8, 40, 0},        {"random", 2, 500, 8},
-    {"random", 3, 300, 6},       {"random", 5, 80, 4},
-    {"halton", 3, 1000, 0},      {"halton", 5, 200, 0},
-    {"halton", 3, 600, 16},      {"sobol", 4, 256, 0},
-    {"sobol", 8, 64, 0},         {"sobol", 3, 512, 0},
-    {"centred", 2, 400, 0}, {"grid", 3, 343, 0},
-    {"centred", 4, 81, 0},  {"centred", 1, 500, 0},
-    {"hammersley", 4, 300, 0},
+    {"random", 2, 200, 0},  {"random", 4, 100, 0},    {"random", 8, 30, 0},
+    {"random", 2, 300, 8},  {"random", 3, 200, 6},    {"random", 5, 60, 4},
+    {"halton", 3, 300, 0},  {"halton", 5, 100, 0},    {"halton", 3, 300, 16},
+    {"sobol", 4, 128, 0},   {"sobol", 8, 40, 0},      {"sobol", 3, 128, 0},
+    {"centred", 2, 225, 0}, {"centred", 4, 81, 0},    {"centred", 1, 300, 0},
+    {"grid", 3, 125, 0},    {"hammersley", 4, 99, 0},
 };
 
 enum { SOURCES = sizeof sources / sizeof sources[0] };
@@ -112,14 +109,13 @@ START_TEST(same_bits_for_any_threads)
 
     ck_assert_int_eq(one.status, KOKSMA_OK);
     check_witness(&one, p);
-    for (size_t threads = 0; threads <= THREADS; threads++)
-        for (int anytime = 0; anytime <= 1; anytime++) {
-            answer a = solve(
-                p, (koksma_star_opts){.threads = threads, .anytime = anytime == 1});
+    for (size_t threads = 0; threads <= THREADS; threads++) {
+        answer a = solve(
+            p, (koksma_star_opts){.threads = threads, .anytime = threads % 4 == 2});
 
-            ck_assert_int_eq(a.status, KOKSMA_OK);
-            check_same(&one, &a, s, threads);
-        }
+        ck_assert_int_eq(a.status, KOKSMA_OK);
+        check_same(&one, &a, s, threads);
+    }
 }
 END_TEST
 
@@ -154,12 +150,8 @@ START_TEST(parts_make_the_whole)
     koksma_interval whole = solve(p, (koksma_star_opts){.threads = 1}).r.value;
 
     for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++)
-        for (size_t threads = 1; threads <= 3; threads += 2)
-            for (int anytime = 0; anytime <= 1; anytime++)
-                check_parts(
-                    p,
-                    (koksma_star_opts){.threads = threads, .anytime = anytime == 1},
-                    counts[i], whole);
+        check_parts(p, (koksma_star_opts){.threads = 1 + i % 3}, counts[i], whole);
+    check_parts(p, (koksma_star_opts){.threads = 1, .anytime = true}, 3, whole);
 }
 END_TEST
 
@@ -170,14 +162,14 @@ START_TEST(parts_with_a_tolerance)
     koksma_points p = points_of(&sources[_i]);
     koksma_interval whole = solve(p, (koksma_star_opts){.threads = 1}).r.value;
 
-    for (size_t i = 0; i < 6; i++) {
+    for (size_t i = 0; i < 3; i++) {
         koksma_star_opts opts = {.threads = 1,
-                                 .tolerance = tolerances[i / 2],
-                                 .anytime = i % 2 == 1,
-                                 .parts = 3};
+                                 .tolerance = tolerances[i],
+                                 .anytime = i == 1,
+                                 .parts = 2};
         double upper = 0.0;
 
-        for (opts.part = 1; opts.part <= 3; opts.part++) {
+        for (opts.part = 1; opts.part <= 2; opts.part++) {
             answer a = solve(p, opts);
 
             ck_assert_int_eq(a.status, KOKSMA_OK);
@@ -198,6 +190,8 @@ START_TEST(refused_parts)
         {.part = SIZE_MAX, .parts = 4},
         {.method = KOKSMA_STAR_TREE, .part = 6, .parts = 5},
         {.method = KOKSMA_STAR_SWEEP, .part = 1, .parts = 2},
+        {.method = KOKSMA_STAR_DEM, .part = 1, .parts = 2},
+        {.method = KOKSMA_STAR_SEARCH, .part = 1, .parts = 2},
     };
 
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
@@ -286,7 +280,7 @@ START_TEST(intervals_shrink)
     koksma_points p = points_of(s);
     answer one = solve(p, (koksma_star_opts){.threads = 1});
 
-    for (size_t threads = 1; threads <= THREADS; threads *= 2) {
+    for (size_t threads = 1; threads <= THREADS; threads += 3) {
         watch w;
         answer a = watched(p, threads, &w, 0);
 
