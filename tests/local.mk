@@ -12,9 +12,10 @@ AM_TESTS_ENVIRONMENT = \
   PATH='$(abs_top_builddir)/bin':$$PATH; export PATH;
 
 structure_scripts = \
-  %D%/cli.sh %D%/floors.sh %D%/headers.sh %D%/man.sh %D%/names.sh %D%/symbols.sh
+  %D%/cli.sh %D%/cli_star.sh %D%/floors.sh %D%/headers.sh %D%/man.sh %D%/names.sh \
+  %D%/symbols.sh
 TESTS      += $(structure_scripts) %D%/replay.sh
-EXTRA_DIST += $(structure_scripts) %D%/replay.sh %D%/corpus
+EXTRA_DIST += $(structure_scripts) %D%/cli_rows.sh %D%/replay.sh %D%/corpus
 
 # ---- Unit tests: one Check program a module ------------------------------------
 
@@ -44,7 +45,7 @@ TESTS          += $(unit_tests)
 AM_CPPFLAGS    += $(CHECK_CFLAGS)
 endif
 
-.PHONY: check-big check-valgrind check-sanitize
+.PHONY: check-big check-valgrind check-sanitize check-threads
 # The cases tagged big, and twenty times the random sets.
 check-big:
 	CK_EXCLUDE_TAGS=none KOKSMA_TEST_SCALE=$${KOKSMA_TEST_SCALE-20} $(MAKE) check
@@ -66,6 +67,19 @@ check-sanitize:
 	cd sanitize && { test -f Makefile || \
 	  $(abs_top_srcdir)/configure --disable-shared CC='$(CC)' CFLAGS='$(SANITIZE)'; } && \
 	  $(MAKE) check
+
+# And another, in threads/: what runs in several threads at once, and nothing else,
+# since the thread sanitizer makes everything ten times as slow.
+THREAD_TESTS = %D%/test_part %D%/test_star_threads
+check-threads:
+	$(MKDIR_P) threads
+	cd threads && { test -f Makefile || \
+	  $(abs_top_srcdir)/configure --disable-shared CC='$(CC)' \
+	    CFLAGS='-g -O1 -fsanitize=thread'; } && \
+	  $(MAKE) all && $(MAKE) $(THREAD_TESTS) && \
+	  for test in $(THREAD_TESTS); do CK_FORK=no ./$$test || exit 1; done && \
+	  bin/koksma-points halton -d 4 -n 500 >points.txt && \
+	  bin/koksma-star -j 4 --trace points.txt && bin/koksma-star -j 4 points.txt
 
 # ---- Fuzzing: the targets are replayed over the corpus in make check -----------
 
@@ -92,7 +106,7 @@ fuzz: $(BUILT_SOURCES)
 clean-local: clean-fuzz
 .PHONY: clean-fuzz
 clean-fuzz:
-	rm -rf fuzz sanitize
+	rm -rf fuzz sanitize threads
 
 # ---- Benches ---------------------------------------------------------------------
 
