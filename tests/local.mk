@@ -69,7 +69,8 @@ check-sanitize:
 	  $(MAKE) check
 
 # And another, in threads/: what runs in several threads at once, and nothing else,
-# since the thread sanitizer makes everything ten times as slow.
+# since the thread sanitizer makes everything ten times as slow.  Cases tagged slow
+# are left out here too.
 THREAD_TESTS = %D%/test_part %D%/test_star_threads
 check-threads:
 	$(MKDIR_P) threads
@@ -77,7 +78,9 @@ check-threads:
 	  $(abs_top_srcdir)/configure --disable-shared CC='$(CC)' \
 	    CFLAGS='-g -O1 -fsanitize=thread'; } && \
 	  $(MAKE) all && $(MAKE) $(THREAD_TESTS) && \
-	  for test in $(THREAD_TESTS); do CK_FORK=no ./$$test || exit 1; done && \
+	  for test in $(THREAD_TESTS); do \
+	    CK_FORK=no CK_EXCLUDE_TAGS='big slow' ./$$test || exit 1; \
+	  done && \
 	  bin/koksma-points halton -d 4 -n 500 >points.txt && \
 	  bin/koksma-star -j 4 --trace points.txt && bin/koksma-star -j 4 points.txt
 
@@ -110,15 +113,18 @@ clean-fuzz:
 
 # ---- Benches ---------------------------------------------------------------------
 
-benches = %D%/bench_gen %D%/bench_io %D%/bench_star %D%/bench_fit
+benches = \
+  %D%/bench_gen %D%/bench_io %D%/bench_star %D%/bench_star_trade %D%/bench_fit
 EXTRA_PROGRAMS += $(benches)
 CLEANFILES     += $(benches)
 %C%_bench_gen_SOURCES  = %D%/bench_gen.c %D%/bench.h
 %C%_bench_gen_LDADD    = lib/libcore.la
 %C%_bench_io_SOURCES   = %D%/bench_io.c %D%/bench.h
 %C%_bench_io_LDADD     = lib/libcore.la
-%C%_bench_star_SOURCES = %D%/bench_star.c %D%/bench.h
+%C%_bench_star_SOURCES = %D%/bench_star.c %D%/bench_star.h %D%/bench.h
 %C%_bench_star_LDADD   = lib/libcore.la
+%C%_bench_star_trade_SOURCES = %D%/bench_star_trade.c %D%/bench_star.h %D%/bench.h
+%C%_bench_star_trade_LDADD   = lib/libcore.la
 %C%_bench_fit_SOURCES  = %D%/bench_fit.c %D%/bench.h
 %C%_bench_fit_LDADD    = lib/libcore.la
 

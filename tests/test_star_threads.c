@@ -280,7 +280,7 @@ START_TEST(intervals_shrink)
     koksma_points p = points_of(s);
     answer one = solve(p, (koksma_star_opts){.threads = 1});
 
-    for (size_t threads = 1; threads <= THREADS; threads += 3) {
+    for (size_t threads = 1; threads <= 4; threads += 3) {
         watch w;
         answer a = watched(p, threads, &w, 0);
 
@@ -324,13 +324,14 @@ START_TEST(stopped_anywhere)
 }
 END_TEST
 
-static void add_tests(Suite *suite, const char *name, const TTest *test)
+static TCase *add_tests(Suite *suite, const char *name, const TTest *test)
 {
     TCase *tc = tcase_create(name);
 
     tcase_add_loop_test(tc, test, 0, SOURCES);
     tcase_set_timeout(tc, 60.0 * (double)oracle_scale());
     suite_add_tcase(suite, tc);
+    return tc;
 }
 
 int main(void)
@@ -339,10 +340,10 @@ int main(void)
     TCase *tc = tcase_create("options");
 
     add_tests(suite, "threads", same_bits_for_any_threads);
-    add_tests(suite, "parts", parts_make_the_whole);
-    add_tests(suite, "tolerance", parts_with_a_tolerance);
     add_tests(suite, "shrinking", intervals_shrink);
     add_tests(suite, "stopping", stopped_anywhere);
+    tcase_set_tags(add_tests(suite, "parts", parts_make_the_whole), "slow");
+    tcase_set_tags(add_tests(suite, "tolerance", parts_with_a_tolerance), "slow");
     tcase_add_test(tc, refused_parts);
     tcase_add_test(tc, one_part_is_the_whole);
     suite_add_tcase(suite, tc);
