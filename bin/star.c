@@ -188,8 +188,8 @@ int main(int argc, char *argv[])
 
     if (o.trace && o.witness) cli_usage("--trace has no room for a witness");
     if (o.opts.parts > 1 && o.opts.method != KOKSMA_STAR_AUTO &&
-        o.opts.method != KOKSMA_STAR_TREE)
-        cli_usage("--part takes the tree: the others cannot be cut");
+        o.opts.method != KOKSMA_STAR_TREE && o.opts.method != KOKSMA_STAR_LINES)
+        cli_usage("--part takes the tree or the lines: the others cannot be cut");
 
     cli_input input = cli_inputs(argc, argv, KOKSMA_POINTS);
 

@@ -244,9 +244,10 @@ ki_cell *ki_cell_enter(ki_worker *w, size_t depth)
 {
     size_t dim = w->ranks->dim;
     ki_cell *c = cell_at(w, depth);
-    const ki_cell *from = c - 1;
+    const ki_cell *from;
 
     if (c == NULL) return NULL;
+    from = c - 1;
     memcpy(c->low, from->low, dim * sizeof *c->low);
     memcpy(c->high, from->high, dim * sizeof *c->high);
     memcpy(c->begin, from->begin, dim * sizeof *c->begin);

@@ -131,8 +131,8 @@ static size_t enough_tasks(const search *s)
 {
     size_t threads = ki_team_threads(s->run.team);
 
-    if (s->parts > 1) return 128 * s->parts;
-    return threads > 1 ? 128 * threads : 1;
+    if (s->parts > 1) return 32 * s->parts;
+    return threads > 1 ? 64 * threads : 1;
 }
 
 /* Tasks of about equal work, as far as a cell's bound can tell: how much of it is
