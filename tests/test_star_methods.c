@@ -104,7 +104,9 @@ static void check_witness(const koksma_star_result *r, koksma_points p)
     ck_assert(oracle_narrow(r->value));
 }
 
-static const char *const names[] = {"auto", "sweep", "tree", "dem"};
+static const char *const names[] = {[KOKSMA_STAR_SWEEP] = "sweep",
+                                    [KOKSMA_STAR_TREE] = "tree",
+                                    [KOKSMA_STAR_DEM] = "dem"};
 
 static void agree(koksma_points p, koksma_star_method one, koksma_star_method other,
                   const char *kind, uint64_t round)
