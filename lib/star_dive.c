@@ -126,6 +126,7 @@ static bool add_task(ki_tasks *tasks, const ki_worker *w, const ki_cell *c)
     if (ki_grow((void **)&tasks->number, &tasks->room, (tasks->count + 1) * size,
                 sizeof *tasks->number) != 0)
         return false;
+    tasks->most = fmax(tasks->most, c->bound);
     to = tasks->number + tasks->count++ * size;
     *to++ = w->ranks->closed;
     memcpy(to, c->low, dim * sizeof *to);

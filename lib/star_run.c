@@ -71,13 +71,14 @@ static void run_stage(ki_run *r, double factor, ki_run_stage *stage, void *state
     report(r, 0.0);
 }
 
-/* The stages make early bounds: each costs a part of the next. */
+/* The stages make early bounds: each costs a part of the next.  Shares have none:
+ * what is dealt to them must not depend on what one of them has found. */
 void ki_run_stages(ki_run *r, ki_run_stage *stage, void *state)
 {
     static const double stages[] = {1.0, 0.5, 0.25, 0.1, 0.05};
     double tolerance = r->opts->tolerance;
 
-    if (r->opts->anytime)
+    if (r->opts->anytime && r->opts->parts <= 1)
         for (size_t i = 0; i < sizeof stages / sizeof stages[0]; i++)
             if (stages[i] > tolerance) run_stage(r, 1.0 + stages[i], stage, state);
     run_stage(r, 1.0 + tolerance, stage, state);

@@ -50,6 +50,9 @@ static void offer_flat_boxes(ki_run *r, double *corner)
  * many starts a kind and axis that made nothing better. */
 enum { PATIENCE = 5 };
 
+/* How many cuts make the tasks, about. */
+enum { CUTS = 4 };
+
 static bool climbed(void *state, double work)
 {
     search *s = state;
@@ -90,6 +93,7 @@ static bool all_boxes(search *s, bool closed)
 static void make_tasks(search *s, double most)
 {
     s->tasks.count = 0;
+    s->tasks.most = 0.0;
     /* Closed boxes first: of most sets they hold the extreme, and knowing it early
      * prunes the other search. */
     for (int closed = 1; closed >= 0; closed--) {
@@ -136,17 +140,18 @@ static size_t enough_tasks(const search *s)
 }
 
 /* Tasks of about equal work, as far as a cell's bound can tell: how much of it is
- * above the target decides how deep the search below goes. */
+ * above the target decides how deep the search below goes.  Each cut takes the
+ * hardest cells apart. */
 static void cut(search *s)
 {
-    double target = ki_run_target(&s->run), above = 1.0 - target;
+    double target = ki_run_target(&s->run), share = 1.0 - 1.0 / CUTS;
 
     make_tasks(s, HUGE_VAL);
-    while (s->tasks.count > 0 && s->tasks.count < enough_tasks(s) && above > 1e-9 &&
-           !ki_team_stopped(s->run.team)) {
-        above *= 0.7;
-        make_tasks(s, target + above);
-    }
+    for (int i = 0;
+         i < 4 * CUTS && s->tasks.count > 0 && s->tasks.count < enough_tasks(s) &&
+         !ki_team_stopped(s->run.team);
+         i++)
+        make_tasks(s, target + share * (s->tasks.most - target));
     if (s->parts > 1) deal_tasks(s);
 }
 

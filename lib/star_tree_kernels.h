@@ -81,6 +81,7 @@ typedef struct ki_cell {
 typedef struct ki_tasks {
     uint32_t *number;
     size_t count, room;
+    double most; /* the greatest of their bounds */
 } ki_tasks;
 
 /* What one thread works with: the path of cells that it is in, and where each

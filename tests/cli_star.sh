@@ -44,17 +44,16 @@ t trace-sets 0 "# input${tab}seconds${tab}steps${tab}lower${tab}upper
 
 # ---- Shares: together they are the whole, and none is much more than its part -------
 
-# steps NAME OPTIONS: the result to NAME, and to NAME.steps how much work it was: in
-# seconds it would depend on what else the machine is doing.
-steps() {
-    koksma-star -q -v -j 1 $2 points 2>&1 >"$1" | sed 's/.*tree, \([^ ]*\) .*/\1/' >"$1.steps"
-}
-
-steps whole
-for part in 1 2 3 4; do
-    steps "part$part" "--part $part/4" &
+# Four processes at once.  How much work each was is told in its steps: in seconds it
+# would depend on what else the machine is doing.
+sh -c 'koksma-star -q -v -j 1 points >whole 2>whole.said
+for i in 1 2 3 4; do
+    koksma-star -q -v -j 1 --part $i/4 points >part$i 2>part$i.said &
 done
-wait
+wait'
+for name in whole part1 part2 part3 part4; do
+    sed 's/.*tree, \([^ ]*\) .*/\1/' $name.said >$name.steps
+done
 t parts-make-the-whole 0 "" "" 'cat part[1-4] | awk -F "\t" "
     \$3 > lower { lower = \$3; low = \$0 }
     \$4 > upper { upper = \$4; high = \$0 }
