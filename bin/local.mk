@@ -1,6 +1,7 @@
 # The tools are installed as koksma-<tool>, one file each over cli.
 noinst_LTLIBRARIES += %D%/libcli.la
-%C%_libcli_la_SOURCES = %D%/cli.h %D%/cli.c %D%/cli_input.c %D%/cli_watch.c
+%C%_libcli_la_SOURCES = %D%/cli.h %D%/cli.c %D%/cli_input.c %D%/cli_prefixes.c \
+  %D%/cli_watch.c
 tool_libs = %D%/libcli.la lib/libkoksma.la
 
 bin_PROGRAMS += \

@@ -7,7 +7,7 @@
 #include "cli.h"
 #include "star.h"
 
-enum { PART = CLI_LONG, TRACE };
+enum { PART = CLI_LONG, PREFIXES, TRACE };
 
 static const cli_option options[] = {
     {'m', "method", "METHOD",
@@ -17,6 +17,7 @@ static const cli_option options[] = {
     {'j', "threads", "THREADS", "how many threads (default 0: one a processor)"},
     {'s', "seed", "SEED", "of the search (default 1)"},
     {PART, "part", "I/M", "do the I-th of M shares of the work"},
+    {PREFIXES, "prefixes", "A:B|N,N,...", "a row for so many first points each"},
     {TRACE, "trace", NULL, "write a row at every improvement of the interval"},
     {'w', "witness", NULL, "write the box that proves the lower bound"},
     {'p', "progress", NULL, "a live line on standard error"},
@@ -44,6 +45,8 @@ typedef struct star_options {
     cli_watch watch;
     bool witness, verbose, trace;
     const cli_input *input;
+    uint64_t *prefix; /* NULL: only the whole set */
+    size_t prefixes;
     koksma_interval traced; /* what the last row of the trace said */
 } star_options;
 
@@ -93,16 +96,16 @@ static int on_progress(void *state, double lower, double upper, double work)
     return cli_watch_progress(&o->watch, lower, upper, work);
 }
 
-static void print_row(const star_options *o, const koksma_set *set,
+static void print_row(const star_options *o, koksma_points p,
                       const koksma_star_result *r)
 {
     print_label(o->input);
-    printf("%zu\t%zu", set->n, set->dim);
+    printf("%zu\t%zu", p.n, p.dim);
     print_interval(r->value);
     if (o->witness) {
         printf("\t%s\t%zu", r->witness.closed ? "closed" : "open",
                r->witness.inside);
-        for (size_t k = 0; k < set->dim; k++) {
+        for (size_t k = 0; k < p.dim; k++) {
             putchar('\t');
             cli_number(r->witness.corner[k]);
         }
@@ -131,31 +134,45 @@ static void read_part(star_options *o, const char *text)
     o->opts.part = cli_count("--part", first, 1, o->opts.parts);
 }
 
-/* Returns whether the set was finished. */
-static bool measure(const koksma_set *set, star_options *o)
+/* Returns whether it was finished. */
+static bool measure(koksma_points p, star_options *o)
 {
-    koksma_star_result r = {.witness.corner = malloc(set->dim * sizeof(double))};
+    koksma_star_result r = {.witness.corner = malloc(p.dim * sizeof(double))};
     koksma_error err;
     koksma_status status;
 
     if (r.witness.corner == NULL) cli_fail("not enough memory for a witness");
     o->traced = (koksma_interval){-1.0, 2.0};
     cli_watch_start(&o->watch);
-    status = koksma_star(&r, koksma_set_view(set), &o->opts, &err);
+    status = koksma_star(&r, p, &o->opts, &err);
     cli_watch_stop(&o->watch);
     if (status != KOKSMA_OK && status != KOKSMA_STOPPED)
         cli_fail_input(o->input, &err);
     if (o->trace)
         trace(o, r.value, r.work);
     else
-        print_row(o, set, &r);
+        print_row(o, p, &r);
     if (status == KOKSMA_STOPPED) cli_note("%s", err.text);
     if (o->verbose)
-        cli_note("%zu points, %zu coordinates: %s, %.3g %s, %.2f s", set->n,
-                 set->dim, methods[r.method].name, r.work, methods[r.method].steps,
+        cli_note("%zu points, %zu coordinates: %s, %.3g %s, %.2f s", p.n, p.dim,
+                 methods[r.method].name, r.work, methods[r.method].steps,
                  cli_seconds(&o->watch));
     free(r.witness.corner);
     return status == KOKSMA_OK;
+}
+
+static bool measure_prefixes(const koksma_set *set, star_options *o)
+{
+    koksma_points p = koksma_set_view(set);
+    bool finished = true;
+
+    if (o->prefixes == 0) return measure(p, o);
+    if (o->prefix[o->prefixes - 1] > p.n)
+        cli_fail("set %s has %zu points, and --prefixes asks for %ju",
+                 o->input->label, p.n, (uintmax_t)o->prefix[o->prefixes - 1]);
+    for (size_t i = 0; i < o->prefixes && finished; i++)
+        finished = measure((koksma_points){p.x, o->prefix[i], p.dim}, o);
+    return finished;
 }
 
 int main(int argc, char *argv[])
@@ -179,6 +196,9 @@ int main(int argc, char *argv[])
             break;
         case 'j': o.opts.threads = cli_count("-j", optarg, 0, 65536); break;
         case PART: read_part(&o, optarg); break;
+        case PREFIXES:
+            o.prefixes = cli_prefixes(&o.prefix, "--prefixes", optarg, 1);
+            break;
         case TRACE: o.trace = o.opts.anytime = true; break;
         case 's': o.opts.seed = cli_count("-s", optarg, 0, UINT64_MAX); break;
         case 'w': o.witness = true; break;
@@ -198,8 +218,9 @@ int main(int argc, char *argv[])
     while (finished && cli_read_set(&input, &set)) {
         if (!header) print_header(&o);
         header = true;
-        finished = measure(&set, &o);
+        finished = measure_prefixes(&set, &o);
     }
     koksma_set_free(&set);
+    free(o.prefix);
     cli_finish(finished ? CLI_DONE : CLI_STOPPED);
 }

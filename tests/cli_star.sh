@@ -42,6 +42,15 @@ t trace-sets 0 "# input${tab}seconds${tab}steps${tab}lower${tab}upper
 1
 2" "" '{ cat few; echo; cat few; } | koksma-star --trace | sed "1!s/\t.*//" | uniq'
 
+# ---- Prefixes: each as a set of its own -----------------------------------------------
+
+t prefixes 0 "" "" '
+    koksma-star -q --prefixes 7,10:60 few >prefixes
+    for n in 7 10 20 40 60; do grep -v "#" few | head -n $n | koksma-star -q; done | diff prefixes -'
+has prefixes-too-many 1 'set .* has 60 points, and --prefixes asks for 61' \
+    'koksma-star --prefixes 8,61 few'
+has prefixes-fall 2 'takes numbers that rise' 'koksma-star --prefixes 8,7 few'
+
 # ---- Shares: together they are the whole, and none is much more than its part -------
 
 # Four processes at once.  How much work each was is told in its steps: in seconds it
