@@ -61,7 +61,10 @@ _Noreturn void cli_fail(const char *format, ...)
 _Noreturn void cli_fail_as(const koksma_error *err); /* not about an input */
 void cli_note(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/* Flush standard output and leave: with status, or 1 when it cannot be written. */
+/* Flush standard output, and leave with 1 when it cannot be written. */
+void cli_flush(void);
+
+/* The same, and leave with status. */
 _Noreturn void cli_finish(int status);
 
 /* ---- Inputs: the FILEs of the command line, or standard input

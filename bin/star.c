@@ -43,18 +43,20 @@ static const struct {
 typedef struct star_options {
     koksma_star_opts opts;
     cli_watch watch;
-    bool witness, verbose, trace;
+    bool witness, verbose, trace, header;
     const cli_input *input;
     uint64_t *prefix; /* NULL: only the whole set */
     size_t prefixes;
     koksma_interval traced; /* what the last row of the trace said */
 } star_options;
 
-static void print_header(const star_options *o)
+/* Once, before the first row: what cannot be measured leaves no header behind. */
+static void print_header(star_options *o)
 {
     const char *input = o->input->several ? "input\t" : "";
 
-    if (cli_quiet()) return;
+    if (cli_quiet() || o->header) return;
+    o->header = true;
     if (o->trace)
         printf("# %sseconds\tsteps\tlower\tupper\n", input);
     else
@@ -81,11 +83,12 @@ static void trace(star_options *o, koksma_interval v, double work)
 {
     if (v.lower == o->traced.lower && v.upper == o->traced.upper) return;
     o->traced = v;
+    print_header(o);
     print_label(o->input);
     printf("%.3f\t%.0f", cli_seconds(&o->watch), work);
     print_interval(v);
     putchar('\n');
-    fflush(stdout);
+    cli_flush();
 }
 
 static int on_progress(void *state, double lower, double upper, double work)
@@ -96,9 +99,9 @@ static int on_progress(void *state, double lower, double upper, double work)
     return cli_watch_progress(&o->watch, lower, upper, work);
 }
 
-static void print_row(const star_options *o, koksma_points p,
-                      const koksma_star_result *r)
+static void print_row(star_options *o, koksma_points p, const koksma_star_result *r)
 {
+    print_header(o);
     print_label(o->input);
     printf("%zu\t%zu", p.n, p.dim);
     print_interval(r->value);
@@ -179,7 +182,7 @@ int main(int argc, char *argv[])
 {
     star_options o = {.opts = {.seed = 1, .progress = on_progress}};
     koksma_set set = {0};
-    bool header = false, finished = true;
+    bool finished = true;
     int c;
 
     while ((c = cli_next(&tool, argc, argv)) != -1)
@@ -215,11 +218,8 @@ int main(int argc, char *argv[])
 
     o.input = &input;
     o.opts.state = &o;
-    while (finished && cli_read_set(&input, &set)) {
-        if (!header) print_header(&o);
-        header = true;
+    while (finished && cli_read_set(&input, &set))
         finished = measure_prefixes(&set, &o);
-    }
     koksma_set_free(&set);
     free(o.prefix);
     cli_finish(finished ? CLI_DONE : CLI_STOPPED);

@@ -42,6 +42,11 @@ t trace-sets 0 "# input${tab}seconds${tab}steps${tab}lower${tab}upper
 1
 2" "" '{ cat few; echo; cat few; } | koksma-star --trace | sed "1!s/\t.*//" | uniq'
 
+t trace-full 1 "" "koksma-star: standard output: cannot write: No space left on device" \
+    'koksma-star --trace few >/dev/full'
+t no-header 1 "" "koksma-star: points: filtered lines take 2 or 3 coordinates, not 10" \
+    'koksma-star -m lines points'
+
 # ---- Prefixes: each as a set of its own -----------------------------------------------
 
 t prefixes 0 "" "" '
