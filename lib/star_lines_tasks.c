@@ -37,8 +37,10 @@ bool ki_lines_bring_in(ki_lines_worker *w, const ki_lines_task *t, ki_lines_cell
 
     *c = t->cell;
     if (c->of_grid) return true;
-    if (ki_grow((void **)&w->line, &w->room_lines, lines, sizeof *w->line) != 0 ||
-        ki_grow((void **)&w->point, &w->room_points, points, sizeof *w->point) != 0)
+    if (ki_grow((void **)&w->line, &w->room_lines, lines + 1, sizeof *w->line) !=
+            0 ||
+        ki_grow((void **)&w->point, &w->room_points, points + 1,
+                sizeof *w->point) != 0)
         return false;
     memcpy(w->line, from, lines * sizeof *from);
     memcpy(w->point, from + lines, points * sizeof *w->point);
