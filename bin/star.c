@@ -137,6 +137,15 @@ static void read_part(star_options *o, const char *text)
     o->opts.part = cli_count("--part", first, 1, o->opts.parts);
 }
 
+static const char *reason(const star_options *o, const koksma_star_result *r,
+                          koksma_points p)
+{
+    if (o->opts.method != KOKSMA_STAR_AUTO) return "as told";
+    if (p.dim == 1) return "one coordinate";
+    if (r->method == KOKSMA_STAR_SWEEP) return "few corners";
+    return p.dim <= 3 ? "two or three coordinates" : "more than three coordinates";
+}
+
 /* Returns whether it was finished. */
 static bool measure(koksma_points p, star_options *o)
 {
@@ -157,9 +166,9 @@ static bool measure(koksma_points p, star_options *o)
         print_row(o, p, &r);
     if (status == KOKSMA_STOPPED) cli_note("%s", err.text);
     if (o->verbose)
-        cli_note("%zu points, %zu coordinates: %s, %.3g %s, %.2f s", p.n, p.dim,
-                 methods[r.method].name, r.work, methods[r.method].steps,
-                 cli_seconds(&o->watch));
+        cli_note("%zu points, %zu coordinates: %s (%s), %.3g %s, %.2f s", p.n,
+                 p.dim, methods[r.method].name, reason(o, &r, p), r.work,
+                 methods[r.method].steps, cli_seconds(&o->watch));
     free(r.witness.corner);
     return status == KOKSMA_OK;
 }

@@ -47,6 +47,10 @@ t trace-full 1 "" "koksma-star: standard output: cannot write: No space left on 
 t no-header 1 "" "koksma-star: points: filtered lines take 2 or 3 coordinates, not 10" \
     'koksma-star -m lines points'
 
+has why-sweep 0 'sweep (few corners)' 'koksma-points random -d 3 -n 5 | koksma-star -v'
+has why-tree 0 'tree (more than three coordinates)' 'koksma-star -v points'
+has why-told 0 'tree (as told)' 'koksma-star -v -m tree few'
+
 # ---- Prefixes: each as a set of its own -----------------------------------------------
 
 t prefixes 0 "" "" '
@@ -66,7 +70,7 @@ for i in 1 2 3 4; do
 done
 wait'
 for name in whole part1 part2 part3 part4; do
-    sed 's/.*tree, \([^ ]*\) .*/\1/' $name.said >$name.steps
+    sed 's/.*), \([^ ]*\) .*/\1/' $name.said >$name.steps
 done
 t parts-make-the-whole 0 "" "" 'cat part[1-4] | awk -F "\t" "
     \$3 > lower { lower = \$3; low = \$0 }
