@@ -26,7 +26,7 @@ t two-files 0 "a:1${tab}1${tab}1${tab}0.5${tab}0.5
 t second-opinion 0 "" "" \
     'koksma-points halton -d 4 -n 200 >p; koksma-star -w -m tree p >1
      koksma-star -w -m dem p >2; cmp 1 2'
-has what-was-done 0 'dem, [0-9.e+]* products' \
+has what-was-done 0 'dem (as told), [0-9.e+]* products' \
     'koksma-points halton -d 3 -n 50 | koksma-star -m dem -v'
 t points 0 "# koksma-points halton -n 3 -d 2
 # koksma: points=halton scramble=none
