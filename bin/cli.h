@@ -44,9 +44,9 @@ uint64_t cli_count(const char *option, const char *text, uint64_t least,
                    uint64_t most);
 double cli_real(const char *option, const char *text, double least, double most);
 
-/* The sizes of prefixes: numbers and ranges A:B apart by commas, all rising; a range
- * is A 2^(i/steps) rounded, for i = 0, 1, ..., as far as B, and B.  Returns how many
- * there are; *n is the caller's to free. */
+/* The sizes of prefixes: numbers and ranges A:B apart by commas, all rising; a
+ * range is A 2^(i/steps) rounded, for i = 0, 1, ..., as far as B, and B.  Returns
+ * how many there are; *n is the caller's to free. */
 size_t cli_prefixes(uint64_t **n, const char *option, const char *text,
                     unsigned steps);
 

@@ -12,9 +12,11 @@ enum { EXACT = CLI_LONG, STEPS, PREFIXES, SUMMARY };
 
 static const cli_option options[] = {
     {'d', "dim", "DIM", "the integrand's dimension, told to koksma-fit"},
-    {EXACT, "exact", "VALUE", "the exact integral, or mean (default: as input says)"},
+    {EXACT, "exact", "VALUE",
+     "the exact integral, or mean (default: as input says)"},
     {STEPS, "steps", "K", "N's to the octave (default 2)"},
-    {PREFIXES, "prefixes", "A:B|N,N,...", "these N alone (default: from 1 to the end)"},
+    {PREFIXES, "prefixes", "A:B|N,N,...",
+     "these N alone (default: from 1 to the end)"},
     {SUMMARY, "summary", NULL, "root mean squares over the sets instead"},
     {0},
 };

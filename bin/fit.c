@@ -7,13 +7,25 @@
 #include "fit.h"
 #include "fit_report.h"
 
-enum { FROM = CLI_LONG, TO, LEVEL, MARGIN, CLAIM, BETA, AREA, JUMP, SIGMA, PATH, EXPLAIN };
+enum {
+    FROM = CLI_LONG,
+    TO,
+    LEVEL,
+    MARGIN,
+    CLAIM,
+    BETA,
+    AREA,
+    JUMP,
+    SIGMA,
+    PATH,
+    EXPLAIN
+};
 
 static const cli_option options[] = {
-    {'x', "column-x", "COLUMN", "name or number of the column of N (default N or n)"},
-    {'y', "column-y", "COLUMN",
-     "that of the error (default error, rms or upper)"},
-    {'m', "model", "MODEL", "auto, power or two-terms (default auto)"},
+    {'x', "column-x", "COLUMN",
+     "name or number of the column of N (default N or n)"},
+    {'y', "column-y", "COLUMN", "that of the error (default error, rms or upper)"},
+    {'m', "model", "MODEL", "auto, power, two-terms or two-powers (default auto)"},
     {'d', "dim", "DIM", "dimension, for the theory (default: as the input says)"},
     {FROM, "from", "N", "smallest N to use (default: see the manual)"},
     {TO, "to", "N", "largest N to use (default: all)"},
@@ -48,7 +60,8 @@ static koksma_fit_model read_model(const char *text)
     if (strcmp(text, "auto") == 0) return KOKSMA_FIT_AUTO;
     if (strcmp(text, "power") == 0) return KOKSMA_FIT_POWER;
     if (strcmp(text, "two-terms") == 0) return KOKSMA_FIT_TWO_TERMS;
-    cli_usage("-m takes auto, power or two-terms, not \"%s\"", text);
+    if (strcmp(text, "two-powers") == 0) return KOKSMA_FIT_TWO_POWERS;
+    cli_usage("-m takes auto, power, two-terms or two-powers, not \"%s\"", text);
 }
 
 static double said(const char *about, const char *key)
@@ -134,8 +147,8 @@ static void fit_file(const cli_input *input, const fit_options *o, bool header)
     r.path = (size_t)o->path;
     if (t.sets == 1 && o->interval)
         cli_fail("one path has no interval: --level and --margin take replicates");
-    if (koksma_fit(&r.fit,
-                   (koksma_fit_data){t.x, t.y, t.set, t.rows, t.sets}, &opts, &err))
+    if (koksma_fit(&r.fit, (koksma_fit_data){t.x, t.y, t.set, t.rows, t.sets},
+                   &opts, &err))
         cli_fail_input(input, &err);
     if (o->explain) {
         fit_report_explain(&r);

@@ -42,7 +42,7 @@ static const char *const verdicts[] = {"none", "equivalent", "different",
                                        "undecided"};
 static const char *const doubts[] = {"-", "path", "bent", "few", "wide", "rival"};
 static const char *const shapes[] = {"none", "straight", "flattens", "steepens"};
-static const char *const models[] = {"auto", "power", "two-terms"};
+static const char *const models[] = {"auto", "power", "two-terms", "two-powers"};
 
 static void tab_number(double v)
 {
@@ -122,7 +122,8 @@ void fit_report_row(const fit_report *r)
     putchar('\n');
 }
 
-/* ---- The paragraph ------------------------------------------------------------- */
+/* ---- The paragraph -------------------------------------------------------------
+ */
 
 static void explain_window(const fit_report *r)
 {
@@ -135,9 +136,11 @@ static void explain_window(const fit_report *r)
         fputs("the error", stdout);
     else
         printf("column %s", r->column);
-    if (f->model == KOKSMA_FIT_TWO_TERMS)
-        printf("\ngoes like %.3g N^s beside %.3g N^-1 (ln N)^1/2, with s = %.4f.\n",
-               f->constant, f->smooth, f->exponent.value.value);
+    if (f->model != KOKSMA_FIT_POWER)
+        printf("\ngoes like %.3g N^s beside %.3g N^-1%s, with s = %.4f.\n",
+               f->constant, f->smooth,
+               f->model == KOKSMA_FIT_TWO_TERMS ? " (ln N)^1/2" : "",
+               f->exponent.value.value);
     else
         printf("\ngoes like %.3g N^s with s = %.4f.\n", f->constant,
                f->exponent.value.value);
@@ -150,15 +153,17 @@ static void explain_window(const fit_report *r)
         puts(".");
     }
     if (f->missing + f->zero + f->below_floor > 0)
-        printf("Left out are %zu N that are incomplete, %zu of zeros and %zu below\n"
-               "rounding.\n",
-               f->missing, f->zero, f->below_floor);
+        printf(
+            "Left out are %zu N that are incomplete, %zu of zeros and %zu below\n"
+            "rounding.\n",
+            f->missing, f->zero, f->below_floor);
 }
 
 static void explain_path(const fit_report *r)
 {
     if (r->path > 0) printf("It is set %zu alone.  ", r->path);
-    puts("This is one path: its errors hang together, and no honest interval can be\n"
+    puts("This is one path: its errors hang together, and no honest interval can "
+         "be\n"
          "had from it.  Replicates give one: koksma-points --scramble digits\n"
          "--replicates 32.");
 }
@@ -210,11 +215,12 @@ static void explain_shape(const fit_report *r)
         puts("The curve flattens towards large N, as a jump beside a smooth part "
              "does.");
     if (f->shape == KOKSMA_FLATTENS && f->model == KOKSMA_FIT_POWER)
-        puts("-m two-terms parts them.");
-    if (f->model == KOKSMA_FIT_TWO_TERMS)
-        printf("One power would have the slope %.4f; N^s is the larger term %s%.3g.\n",
-               f->slope.value.value, f->cross > 0.0 ? "from N = " : "always, from ",
-               f->cross);
+        puts("-m two-terms and -m two-powers part them.");
+    if (f->model != KOKSMA_FIT_POWER)
+        printf(
+            "One power would have the slope %.4f; N^s is the larger term %s%.3g.\n",
+            f->slope.value.value, f->cross > 0.0 ? "from N = " : "always, from ",
+            f->cross);
     if (f->shape != KOKSMA_STEEPENS) return;
     puts("The curve steepens towards large N, as logarithms beside N^-1 do.");
     if (k.value >= 0.0 && (r->dim == 0 || k.value <= (double)r->dim))

@@ -26,8 +26,8 @@ typedef struct fit_report {
     size_t count;
     bool claimed;
     double margin;
-    uint64_t dim;               /* 0: not known */
-    double area, jump, sigma;   /* NaN: not known */
+    uint64_t dim;             /* 0: not known */
+    double area, jump, sigma; /* NaN: not known */
 } fit_report;
 
 /* Fill in candidates: the claim is `claim`, or what beta makes of dim, or the

@@ -13,15 +13,16 @@
  *     E(N)  =  max over n >= N of |e(n)|              n up to the last value
  *
  * at N = 1, 2, 3, 4, 6, 8, 11, 16, ...: 2^(i/steps) rounded, `steps` to the
- * octave, and at the last value; or at N's that are given.  E is the "maximum error after N samples" of
- * [Szirmay-Kalos, Purgathofer 1998]; near the last value it is too small, since
- * it cannot see further. */
+ * octave, and at the last value; or at N's that are given.  E is the "maximum error
+ * after N samples" of [Szirmay-Kalos, Purgathofer 1998]; near the last value it is
+ * too small, since it cannot see further. */
 
 typedef struct koksma_curve_row {
     uint64_t n;
-    double error;       /* e(n), signed */
-    double tail;        /* E(n) */
-    double least, most; /* of all e(m), m >= n; tail is the larger of -least, most */
+    double error; /* e(n), signed */
+    double tail;  /* E(n) */
+    double least,
+        most; /* of all e(m), m >= n; tail is the larger of -least, most */
 } koksma_curve_row;
 
 /* What is known of all values so far. */

@@ -23,9 +23,10 @@ static koksma_status fail_unusable(const ki_grid *g, const koksma_fit_opts *o,
                                    koksma_error *err)
 {
     if (g->rows == 0 && g->zero > 0 && g->missing + g->below_floor == 0)
-        return ki_fail(err, KOKSMA_EINVAL, 0,
-                       "errors of 0 at all %zu N in the window: there is nothing to fit",
-                       g->zero);
+        return ki_fail(
+            err, KOKSMA_EINVAL, 0,
+            "errors of 0 at all %zu N in the window: there is nothing to fit",
+            g->zero);
     return ki_fail(err, KOKSMA_EINVAL, 0,
                    "%zu usable N in [%g, %g], and a fit takes 3; left out: %zu "
                    "incomplete, %zu of zeros, %zu below rounding",
@@ -67,19 +68,18 @@ static void fit_power(koksma_fit_result *f, fit_work *w)
     f->shape = shape_of(f->curvature);
     f->log_power = (koksma_fit_term){{nan(""), nan(""), nan(""), 0.0}, nan(""), 0};
     if (w->weights.has_log_power)
-        f->log_power = functional(w, w->weights.log_power,
-                                  w->weights.log_power_of_inverse);
+        f->log_power =
+            functional(w, w->weights.log_power, w->weights.log_power_of_inverse);
     f->model = KOKSMA_FIT_POWER;
     f->exponent = f->slope;
-    f->constant =
-        g->largest * exp(mean - f->slope.value.value * w->weights.centre);
+    f->constant = g->largest * exp(mean - f->slope.value.value * w->weights.centre);
     f->smooth = f->cross = nan("");
 }
 
 /* In groups: each fit is an iteration, and deleting a sixteenth at a time shows the
  * curvature of the estimate better than deleting one path. */
 static koksma_status fit_two_terms(koksma_fit_result *f, fit_work *w,
-                                   koksma_error *err)
+                                   koksma_fit_model model, koksma_error *err)
 {
     const ki_grid *g = &w->grid;
     size_t groups = g->sets < GROUPS ? g->sets : GROUPS;
@@ -88,14 +88,15 @@ static koksma_status fit_two_terms(koksma_fit_result *f, fit_work *w,
 
     if (g->rows < 4 || g->n[0] <= 1.0)
         return ki_fail(err, KOKSMA_EINVAL, 0,
-                       "two terms take 4 usable N above 1, not %zu from %g", g->rows,
-                       g->n[0]);
+                       "two terms take 4 usable N above 1, not %zu from %g",
+                       g->rows, g->n[0]);
     ki_grid_log_rms_groups(w->log_rms, g, groups);
     for (size_t out = groups < 2 ? groups : 0; out <= groups; out++) {
-        m = ki_mixture_fit(g->n, w->log_rms + out, groups + 1, g->rows);
+        m = ki_mixture_fit(g->n, w->log_rms + out, groups + 1, g->rows,
+                           model == KOKSMA_FIT_TWO_TERMS ? 1.0 : 0.0);
         values[out] = m.s;
     }
-    f->model = KOKSMA_FIT_TWO_TERMS;
+    f->model = model;
     f->exponent = ki_jackknife(values, groups, w->level);
     f->constant = m.has_first ? g->largest * exp(m.c) : 0.0;
     f->smooth = m.has_second ? g->largest * exp(m.c + m.b) : 0.0;
@@ -112,6 +113,7 @@ static koksma_status fit_grid(koksma_fit_result *out, fit_work *w,
                            .missing = g->missing,
                            .zero = g->zero,
                            .below_floor = g->below_floor};
+    koksma_fit_model model = o->model;
     koksma_status status = KOKSMA_OK;
 
     if (g->rows < 3) return fail_unusable(g, o, err);
@@ -124,10 +126,11 @@ static koksma_status fit_grid(koksma_fit_result *out, fit_work *w,
             f.to);
     ki_grid_log_rms(w->log_rms, g);
     fit_power(&f, w);
-    if (o->model == KOKSMA_FIT_TWO_TERMS ||
-        (o->model == KOKSMA_FIT_AUTO && f.shape == KOKSMA_FLATTENS &&
-         koksma_fit_can_part(&f)))
-        status = fit_two_terms(&f, w, err);
+    if (model == KOKSMA_FIT_AUTO)
+        model = f.shape == KOKSMA_FLATTENS && koksma_fit_can_part(&f)
+                    ? KOKSMA_FIT_TWO_TERMS
+                    : KOKSMA_FIT_POWER;
+    if (model != KOKSMA_FIT_POWER) status = fit_two_terms(&f, w, model, err);
     if (status == KOKSMA_OK) *out = f;
     return status;
 }

@@ -17,12 +17,15 @@
  * gives the jackknife's standard error, and s +- t se, with Student's t of R - 1
  * degrees of freedom, covers as it should.  One path alone gets no interval.
  *
- * Where the line bends there are two other models, each with its own jackknife:
+ * Where the line bends there are other models, each with its own jackknife:
  *
  *     rms^2  =  A N^(2s) + B N^-2 ln N     A, B >= 0, -1 <= s <= 0     it flattens
+ *     rms^2  =  A N^(2s) + B N^-2
  *     rms    =  C N^-1 (ln N)^k                                        it steepens
  *
- * the first for a jump beside a smooth part, the second for a smooth part alone. */
+ * the first two for a jump beside a smooth part, the last for a smooth part alone.
+ * A smooth part that grows more slowly than its ln N makes the s of the first model
+ * too large, one that grows at all makes that of the second too small. */
 
 typedef struct koksma_fit_data {
     const double *x;   /* N > 0 */
@@ -32,10 +35,11 @@ typedef struct koksma_fit_data {
 } koksma_fit_data;
 
 typedef enum koksma_fit_model {
-    KOKSMA_FIT_AUTO, /* two terms where the line flattens and koksma_fit_can_part
-                      * holds, else one power */
+    KOKSMA_FIT_AUTO, /* two terms where the line flattens and
+                      * koksma_fit_can_part holds, else one power */
     KOKSMA_FIT_POWER,
-    KOKSMA_FIT_TWO_TERMS
+    KOKSMA_FIT_TWO_TERMS, /* beside N^-2 ln N */
+    KOKSMA_FIT_TWO_POWERS /* beside N^-2 alone */
 } koksma_fit_model;
 
 typedef struct koksma_fit_opts {
@@ -69,19 +73,20 @@ typedef enum koksma_fit_shape {
 } koksma_fit_shape;
 
 typedef struct koksma_fit_result {
-    koksma_fit_model model;   /* KOKSMA_FIT_POWER or KOKSMA_FIT_TWO_TERMS */
+    koksma_fit_model model;   /* never KOKSMA_FIT_AUTO */
     koksma_fit_term exponent; /* s of that model */
     double constant;          /* C: rms, or its first term, is about C N^s */
     koksma_fit_term slope;    /* s of one power, whatever the model */
-    koksma_fit_term curvature; /* q of ln rms = c + s u + q u^2, u = ln N centred: 0
-                                * for a power law; negative when the fall steepens */
+    koksma_fit_term
+        curvature; /* q of ln rms = c + s u + q u^2, u = ln N centred: 0
+                    * for a power law; negative when the fall steepens */
     koksma_fit_shape shape;
     koksma_fit_term log_power; /* k; NaN when an N is below 3 */
-    double smooth; /* two terms: sqrt B, else NaN */
-    double cross;  /* two terms: the N from which on the first is the larger, 0 when
-                    * it always is, HUGE_VAL when it never is; else NaN */
+    double smooth;             /* two terms: sqrt B, else NaN */
+    double cross; /* two terms: the N from which on the first is the larger, 0 when
+                   * it always is, HUGE_VAL when it never is; else NaN */
     size_t sets;
-    size_t used; /* N's in the fit */
+    size_t used;                       /* N's in the fit */
     size_t missing, zero, below_floor; /* N's in [from, to] left out: koksma_fit */
     double from, to;                   /* the smallest and the largest used */
 } koksma_fit_result;
@@ -129,7 +134,8 @@ koksma_fit_test koksma_fit_try(const koksma_fit_result *fit, double candidate,
  *   equivalent  it is near, and every rival is rejected
  *   different   otherwise, if the claim is rejected
  *   undecided   otherwise; and always when the curve bends and no model that fits
- *               has the data it takes: an exponent that is nobody's proves nothing */
+ *               has the data it takes: an exponent that is nobody's proves nothing
+ */
 typedef enum koksma_verdict {
     KOKSMA_NO_VERDICT, /* one path: no interval, no verdict */
     KOKSMA_EQUIVALENT,
@@ -140,11 +146,11 @@ typedef enum koksma_verdict {
 /* Why there is no decision. */
 typedef enum koksma_doubt {
     KOKSMA_NO_DOUBT,
-    KOKSMA_DOUBT_PATH,  /* one path */
-    KOKSMA_DOUBT_BENT,  /* one power, and the line bends */
-    KOKSMA_DOUBT_FEW,   /* two terms, and not koksma_fit_can_part */
-    KOKSMA_DOUBT_WIDE,  /* the interval is too wide for the margin */
-    KOKSMA_DOUBT_RIVAL  /* near, but a rival is not rejected */
+    KOKSMA_DOUBT_PATH, /* one path */
+    KOKSMA_DOUBT_BENT, /* one power, and the line bends */
+    KOKSMA_DOUBT_FEW,  /* two terms, and not koksma_fit_can_part */
+    KOKSMA_DOUBT_WIDE, /* the interval is too wide for the margin */
+    KOKSMA_DOUBT_RIVAL /* near, but a rival is not rejected */
 } koksma_doubt;
 
 typedef struct koksma_judgement {
@@ -170,7 +176,8 @@ double koksma_fit_theory_box(size_t dim, double beta);
  * N cells makes it across a jump J on an area S, is below sigma/sqrt(N), that of
  * random points:
  *
- *     (S J^2 / (6 sigma^2))^D                        infinite where that overflows */
+ *     (S J^2 / (6 sigma^2))^D                        infinite where that overflows
+ */
 double koksma_fit_break_even(size_t dim, double area, double jump, double sigma);
 
 #endif

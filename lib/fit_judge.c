@@ -18,10 +18,10 @@ koksma_fit_test koksma_fit_try(const koksma_fit_result *fit, double candidate,
     if (isnan(s->se)) return (koksma_fit_test){nan(""), false, false};
     /* Two tests at 5 % each: the interval at 90 %. */
     reach = s->se * ki_student_quantile(0.90, s->groups - 1);
-    return (koksma_fit_test){
-        .z = off == 0.0 ? 0.0 : off / s->se,
-        .rejected = candidate < s->value.lower || candidate > s->value.upper,
-        .near = fabs(off) + reach < margin};
+    return (koksma_fit_test){.z = off == 0.0 ? 0.0 : off / s->se,
+                             .rejected = candidate < s->value.lower ||
+                                         candidate > s->value.upper,
+                             .near = fabs(off) + reach < margin};
 }
 
 static koksma_judgement undecided(koksma_doubt doubt)
@@ -30,8 +30,7 @@ static koksma_judgement undecided(koksma_doubt doubt)
 }
 
 koksma_judgement koksma_fit_judge(const koksma_fit_result *fit, double claim,
-                                  const double *rivals, size_t count,
-                                  double margin)
+                                  const double *rivals, size_t count, double margin)
 {
     koksma_fit_test test = koksma_fit_try(fit, claim, margin);
     bool alone = true;
@@ -40,7 +39,7 @@ koksma_judgement koksma_fit_judge(const koksma_fit_result *fit, double claim,
         return (koksma_judgement){KOKSMA_NO_VERDICT, KOKSMA_DOUBT_PATH};
     if (fit->model == KOKSMA_FIT_POWER && fit->shape != KOKSMA_STRAIGHT)
         return undecided(KOKSMA_DOUBT_BENT);
-    if (fit->model == KOKSMA_FIT_TWO_TERMS && !koksma_fit_can_part(fit))
+    if (fit->model != KOKSMA_FIT_POWER && !koksma_fit_can_part(fit))
         return undecided(KOKSMA_DOUBT_FEW);
     for (size_t i = 0; i < count; i++)
         alone = alone && (fabs(rivals[i] - claim) < 1e-9 ||

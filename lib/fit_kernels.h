@@ -42,16 +42,16 @@ bool ki_weights_fill(ki_weights *w, const ki_grid *g);
  * the jackknife's estimate; no interval for one group. */
 koksma_fit_term ki_jackknife(const double *values, size_t groups, double level);
 
-/* y_i = c + 1/2 ln( n_i^(2s) + exp(2b) n_i^-2 ln n_i ), -1 <= s <= 0, by least
- * squares; y[0], y[stride], ... belong to n[0], n[1], ..., all n above 1.  Without
- * the first term s is -1. */
+/* y_i = c + 1/2 ln( n_i^(2s) + exp(2b) n_i^-2 (ln n_i)^log ), -1 <= s <= 0, by
+ * least squares, log 0 or 1; y[0], y[stride], ... belong to n[0], n[1], ..., all n
+ * above 1.  Without the first term s is -1. */
 typedef struct ki_mixture {
-    double s, b, c;
+    double s, b, c, log;
     bool has_first, has_second;
 } ki_mixture;
 
 ki_mixture ki_mixture_fit(const double *n, const double *y, size_t stride,
-                          size_t rows);
+                          size_t rows, double log);
 
 /* The n from which on the first term is the larger; 0: it always is, HUGE_VAL:
  * never. */

@@ -18,8 +18,7 @@ static void fill_log_power(ki_weights *w, const ki_grid *g)
         v2 += pow(log(log(g->n[i])) - centre, 2.0);
     for (size_t i = 0; i < g->rows; i++) {
         w->log_power[i] = (log(log(g->n[i])) - centre) / v2;
-        w->log_power_of_inverse -=
-            w->log_power[i] * (log(g->n[i]) - w->centre);
+        w->log_power_of_inverse -= w->log_power[i] * (log(g->n[i]) - w->centre);
     }
 }
 

@@ -3,8 +3,8 @@
 
 #include "fit_kernels.h"
 
-/* With u = ln n the two terms are exp 2(s u) and exp 2(b - u + ln u / 2), and c is
- * the mean of what they leave of y: two unknowns remain.  The sum of squares is
+/* With u = ln n the two terms are exp 2(s u) and exp 2(b - u + log/2 ln u), and c
+ * is the mean of what they leave of y: two unknowns remain.  The sum of squares is
  * smooth in them, but flat where one term is nearly nothing, and has a valley for
  * either order of the terms; hence damped Gauss-Newton steps [Marquardt 1963] from
  * several starts. */
@@ -12,6 +12,7 @@
 typedef struct sample {
     const double *n, *y;
     size_t stride, rows;
+    double log; /* power of ln n in the second term: 0 or 1 */
 } sample;
 
 typedef struct trial {
@@ -21,15 +22,15 @@ typedef struct trial {
 static const double B_MOST = 100.0; /* far beyond what N below 2^64 can tell */
 
 /* h1 - h2: by how much the first term's logarithm exceeds the second's. */
-static double lead(double u, double s, double b)
+static double lead(double u, double s, double b, double power)
 {
-    return (1.0 + s) * u - b - log(u) / 2.0;
+    return (1.0 + s) * u - b - (power > 0.0 ? power * log(u) / 2.0 : 0.0);
 }
 
 /* 1/2 ln of the sum of both terms; *first: the share of the first in it. */
-static double log_sum(double u, double s, double b, double *first)
+static double log_sum(const sample *p, double u, double s, double b, double *first)
 {
-    double d = lead(u, s, b), smaller = exp(-2.0 * fabs(d));
+    double d = lead(u, s, b, p->log), smaller = exp(-2.0 * fabs(d));
 
     *first = d > 0.0 ? 1.0 / (1.0 + smaller) : smaller / (1.0 + smaller);
     return s * u - fmin(d, 0.0) + log1p(smaller) / 2.0;
@@ -41,12 +42,12 @@ static trial evaluate(const sample *p, double s, double b)
     double first;
 
     for (size_t i = 0; i < p->rows; i++)
-        t.c += (p->y[i * p->stride] - log_sum(log(p->n[i]), s, b, &first)) /
+        t.c += (p->y[i * p->stride] - log_sum(p, log(p->n[i]), s, b, &first)) /
                (double)p->rows;
     for (size_t i = 0; i < p->rows; i++)
-        t.squares += pow(p->y[i * p->stride] - t.c -
-                             log_sum(log(p->n[i]), s, b, &first),
-                         2.0);
+        t.squares +=
+            pow(p->y[i * p->stride] - t.c - log_sum(p, log(p->n[i]), s, b, &first),
+                2.0);
     return t;
 }
 
@@ -63,13 +64,13 @@ static normal linearise(const sample *p, trial t)
     for (size_t i = 0; i < p->rows; i++) {
         double u = log(p->n[i]);
 
-        (void)log_sum(u, t.s, t.b, &first);
+        (void)log_sum(p, u, t.s, t.b, &first);
         mean_s += first * u / m;
         mean_b += (1.0 - first) / m;
     }
     for (size_t i = 0; i < p->rows; i++) {
         double u = log(p->n[i]);
-        double rest = p->y[i * p->stride] - t.c - log_sum(u, t.s, t.b, &first);
+        double rest = p->y[i * p->stride] - t.c - log_sum(p, u, t.s, t.b, &first);
         double ds = first * u - mean_s, db = 1.0 - first - mean_b;
 
         a.ss += ds * ds;
@@ -122,12 +123,12 @@ static trial descend(const sample *p, trial t)
 /* Which terms are there: more than a millionth of the mean square at some n. */
 static ki_mixture describe(const sample *p, trial t)
 {
-    ki_mixture m = {t.s, t.b, t.c, false, false};
+    ki_mixture m = {t.s, t.b, t.c, p->log, false, false};
 
     for (size_t i = 0; i < p->rows; i++) {
         double first;
 
-        (void)log_sum(log(p->n[i]), t.s, t.b, &first);
+        (void)log_sum(p, log(p->n[i]), t.s, t.b, &first);
         m.has_first = m.has_first || first > 1e-6;
         m.has_second = m.has_second || first < 1.0 - 1e-6;
     }
@@ -136,37 +137,38 @@ static ki_mixture describe(const sample *p, trial t)
 }
 
 ki_mixture ki_mixture_fit(const double *n, const double *y, size_t stride,
-                          size_t rows)
+                          size_t rows, double power)
 {
     static const double exponents[] = {-0.55, -0.7, -0.85};
-    static const double places[] = {-0.3, 0.2, 0.5, 0.8}; /* in ln n: of the cross */
-    const sample p = {n, y, stride, rows};
+    static const double places[] = {-0.3, 0.2, 0.5,
+                                    0.8}; /* in ln n: of the cross */
+    const sample p = {n, y, stride, rows, power};
     double low = log(n[0]), width = log(n[rows - 1]) - low;
     trial best = {.squares = HUGE_VAL};
 
     for (size_t i = 0; i < 3; i++)
         for (size_t j = 0; j < 4; j++) {
             double u = fmax(low + places[j] * width, 0.5), s = exponents[i];
-            trial t = descend(&p, evaluate(&p, s, lead(u, s, 0.0)));
+            trial t = descend(&p, evaluate(&p, s, lead(u, s, 0.0, p.log)));
 
             if (t.squares < best.squares) best = t;
         }
     return describe(&p, best);
 }
 
-/* The lead falls until u = 1/(2 + 2s) and rises from there on. */
+/* The lead falls until u = log/(2 + 2s) and rises from there on. */
 double ki_mixture_cross(const ki_mixture *m)
 {
     double low, high = log(DBL_MAX);
 
     if (!m->has_second) return 0.0;
-    if (!m->has_first || lead(high, m->s, m->b) <= 0.0) return HUGE_VAL;
-    low = fmin(0.5 / (1.0 + m->s), high);
-    if (lead(low, m->s, m->b) >= 0.0) return 0.0;
+    if (!m->has_first || lead(high, m->s, m->b, m->log) <= 0.0) return HUGE_VAL;
+    low = fmin(0.5 * m->log / (1.0 + m->s), high);
+    if (lead(low, m->s, m->b, m->log) >= 0.0) return 0.0;
     for (int step = 0; step < 200; step++) {
         double mid = low + (high - low) / 2.0;
 
-        if (lead(mid, m->s, m->b) < 0.0)
+        if (lead(mid, m->s, m->b, m->log) < 0.0)
             low = mid;
         else
             high = mid;
