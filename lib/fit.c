@@ -52,7 +52,8 @@ static koksma_fit_shape shape_of(koksma_fit_term curvature)
     double q = curvature.value.value;
 
     if (isnan(curvature.se)) return KOKSMA_SHAPE_UNKNOWN;
-    if (fabs(q) <= 2.6 * curvature.se) return KOKSMA_STRAIGHT;
+    /* Where the replicates agree to the last digits, the rest is rounding. */
+    if (fabs(q) <= 2.6 * curvature.se + 1e-12) return KOKSMA_STRAIGHT;
     return q > 0.0 ? KOKSMA_FLATTENS : KOKSMA_STEEPENS;
 }
 
