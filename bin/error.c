@@ -157,6 +157,7 @@ static void run(cli_input *input, const error_options *o, error_header h)
             error_print_rows(input->label, rows, count, h.sigma);
     }
     if (o->mean) take_mean(&all, &h, &t);
+    if (o->summary) error_sets_check_equal(&all);
     if (keep) h = complete(h, &t);
     if (keep)
         error_print_header(&h, o->summary ? "N\trms\tlower\tupper\tsets\tmc"

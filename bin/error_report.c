@@ -85,7 +85,7 @@ void error_print_rows(const char *label, const koksma_curve_row *rows, size_t co
 
 /* Sets that differ in N would give means of few errors that look like those of
  * many. */
-static void check_equal(const error_sets *s)
+void error_sets_check_equal(const error_sets *s)
 {
     const error_set *first = &s->set[0];
 
@@ -101,7 +101,6 @@ void error_print_summary(const error_sets *s, double sigma)
     double *column = malloc((s->count + 1) * sizeof *column);
 
     if (column == NULL) cli_fail("not enough memory for the summary");
-    check_equal(s);
     for (size_t j = 0; j < s->set[0].count; j++) {
         uint64_t n = s->set[0].rows[j].n;
 

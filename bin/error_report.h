@@ -42,7 +42,10 @@ void error_print_header(const error_header *h, const char *columns);
 void error_print_rows(const char *label, const koksma_curve_row *rows, size_t count,
                       double sigma);
 
-/* Root mean squares over the sets, which need the same N. */
+/* Fail unless the sets have equally many values. */
+void error_sets_check_equal(const error_sets *s);
+
+/* Root mean squares over the sets, which are equal. */
 void error_print_summary(const error_sets *s, double sigma);
 
 #endif

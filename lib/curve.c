@@ -139,12 +139,18 @@ koksma_curve_total koksma_curve_so_far(const koksma_curve *c)
                                 c->largest};
 }
 
+/* Never -0. */
+static double tail_of(double least, double most)
+{
+    return fabs(fmax(most, -least));
+}
+
 koksma_curve_row koksma_curve_shifted(koksma_curve_row row, double shift)
 {
     row.error -= shift;
     row.least -= shift;
     row.most -= shift;
-    row.tail = fmax(row.most, -row.least);
+    row.tail = tail_of(row.least, row.most);
     return row;
 }
 
@@ -159,7 +165,7 @@ static void end_rows(koksma_curve *c)
 
         row->least = fmin(least, row->error);
         row->most = fmax(most, row->error);
-        row->tail = fmax(row->most, -row->least);
+        row->tail = tail_of(row->least, row->most);
         least = fmin(row->least, before_least);
         most = fmax(row->most, before_most);
     }
