@@ -131,7 +131,7 @@ static void explain_window(const fit_report *r)
     char word[40];
 
     if (r->label != NULL) printf("%s: ", r->label);
-    printf("From N = %g to %g, at %zu N, ", f->from, f->to, f->used);
+    printf("From N = %g to %g (%zu of them) ", f->from, f->to, f->used);
     if (r->column == NULL)
         fputs("the error", stdout);
     else
@@ -142,10 +142,10 @@ static void explain_window(const fit_report *r)
                f->model == KOKSMA_FIT_TWO_TERMS ? " (ln N)^1/2" : "",
                f->exponent.value.value);
     else
-        printf("\ngoes like %.3g N^s with s = %.4f.\n", f->constant,
+        printf(" goes like %.3g N^s with s = %.4f.\n", f->constant,
                f->exponent.value.value);
     if (koksma_about_word(r->about, "points", word, sizeof word)) {
-        printf("The points are %s", word);
+        printf("Points: %s", word);
         if (koksma_about_word(r->about, "scramble", word, sizeof word))
             printf(", scramble %s", word);
         if (koksma_about_word(r->about, "start", word, sizeof word))
