@@ -1,5 +1,6 @@
 /* fit.h: every rule that leaves an N out, the window, and what is refused. */
 #include "fit_fixture.h"
+#include "fit_kernels.h"
 
 static void spoil(table *t, double x, size_t sets, double y)
 {
@@ -78,6 +79,23 @@ START_TEST(left_out)
     f = fit(&data, &o);
     ck_assert(f.missing + f.zero + f.below_floor == 0 && f.used == 7 &&
               f.from == 45.0 && f.to == 362.0);
+}
+END_TEST
+
+/* Squares 1, 4, 4: their means without one of them, and without groups. */
+START_TEST(means_without)
+{
+    double n = 8.0, square[] = {1.0, 4.0, 4.0}, y[4];
+    ki_grid g = {.rows = 1, .sets = 3, .n = &n, .square = square};
+    static const double one_left_out[] = {4.0, 2.5, 2.5, 3.0};
+    static const double groups[] = {4.0, 2.5, 3.0}; /* 0 and 2 are the first */
+
+    ki_grid_log_rms(y, &g);
+    for (size_t i = 0; i < 4; i++)
+        ck_assert_double_eq_tol(y[i], log(one_left_out[i]) / 2.0, 1e-15);
+    ki_grid_log_rms_groups(y, &g, 2);
+    for (size_t i = 0; i < 3; i++)
+        ck_assert_double_eq_tol(y[i], log(groups[i]) / 2.0, 1e-15);
 }
 END_TEST
 
@@ -189,6 +207,7 @@ int main(void)
 
     suite_add_tcase(suite, tc);
     tcase_add_loop_test(tc, left_out, 0, sizeof drops / sizeof *drops);
+    tcase_add_test(tc, means_without);
     tcase_add_test(tc, windows_used);
     tcase_add_test(tc, refused);
     return oracle_run(suite);
