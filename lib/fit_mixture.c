@@ -6,8 +6,8 @@
 /* With u = ln n the two terms are exp 2(s u) and exp 2(b - u + log/2 ln u), and c
  * is the mean of what they leave of y: two unknowns remain.  The sum of squares is
  * smooth in them, but flat where one term is nearly nothing, and has a valley for
- * either order of the terms; hence damped Gauss-Newton steps [Marquardt 1963] from
- * several starts. */
+ * either order of the terms; hence damped Gauss-Newton steps [Marquardt 1963], a
+ * dozen from each of several starts, and then from the best until they end. */
 
 typedef struct sample {
     const double *n, *y;
@@ -100,11 +100,11 @@ static trial step_from(const sample *p, trial t, normal a, double damping)
     return evaluate(p, s, clamp(b, -B_MOST, B_MOST));
 }
 
-static trial descend(const sample *p, trial t)
+static trial descend(const sample *p, trial t, int most)
 {
     double damping = 1e-3;
 
-    for (int steps = 0; steps < 200 && damping < 1e9; steps++) {
+    for (int steps = 0; steps < most && damping < 1e9; steps++) {
         trial next = step_from(p, t, linearise(p, t), damping);
 
         if (next.squares < t.squares) {
@@ -149,11 +149,11 @@ ki_mixture ki_mixture_fit(const double *n, const double *y, size_t stride,
     for (size_t i = 0; i < 3; i++)
         for (size_t j = 0; j < 4; j++) {
             double u = fmax(low + places[j] * width, 0.5), s = exponents[i];
-            trial t = descend(&p, evaluate(&p, s, lead(u, s, 0.0, p.log)));
+            trial t = descend(&p, evaluate(&p, s, lead(u, s, 0.0, p.log)), 12);
 
             if (t.squares < best.squares) best = t;
         }
-    return describe(&p, best);
+    return describe(&p, descend(&p, best, 200));
 }
 
 /* The lead falls until u = log/(2 + 2s) and rises from there on. */
