@@ -4,7 +4,8 @@ noinst_LTLIBRARIES = %D%/libcore.la
 %C%_libcore_la_SOURCES = \
   %D%/curve.c %D%/curve.h \
   %D%/error.c %D%/error.h \
-  %D%/fit.c %D%/fit.h \
+  %D%/fit.c %D%/fit.h %D%/fit_kernels.h %D%/fit_grid.c %D%/fit_judge.c \
+  %D%/fit_line.c %D%/fit_mixture.c \
   %D%/gen.c %D%/gen.h %D%/gen_kernels.h %D%/gen_halton.c %D%/gen_plain.c \
   %D%/gen_radical.c %D%/gen_sobol.c \
   %D%/integrand.c %D%/integrand.h \

@@ -53,27 +53,52 @@ t eval 0 "# koksma: integrand=f2 dim=2 a=0.25 exact=0.5
 # x1${tab}x2${tab}f2
 0.5${tab}0.5${tab}0.25
 0.5${tab}0.75${tab}0.8125" "" 'printf "0.5 0.5\n0.5 .75\n" | koksma-eval f2 -a .25'
-t error 0 "# koksma: integrand=f2 dim=2 a=0 exact=0.5
-# set${tab}N${tab}error${tab}tail
-1${tab}1${tab}-0.5${tab}0.5
-1${tab}2${tab}0${tab}0.16666666666666666
-1${tab}3${tab}0.16666666666666666${tab}0.16666666666666666" "" \
-    'printf "0 0\n1 1\n1 1\n" | koksma-eval f2 | koksma-error'
-t error-told 0 "1${tab}1${tab}-0.75${tab}0.75" "" 'echo 0.1 .25 | koksma-error --exact 1 -q'
-t fit-one-path 0 "exponent${tab}-1${tab}nan${tab}nan${tab}nan${tab}measured
--1/2${tab}-0.5${tab}-0.55${tab}-0.45${tab}nan${tab}none
--1${tab}-1${tab}-1.05${tab}-0.95${tab}nan${tab}none
-curvature${tab}x" "" \
-    'printf "16 4\n64 1\n256 .25\n" | koksma-fit -x 1 -y 2 -q | sed "s/^\(curvature.\).*/\1x/"'
-has star-curve 0 '^exponent	-0\.' \
+t error 0 "# koksma: integrand=f2 dim=2 a=0 exact=0.5 sigma=0.5 sigma_from=values largest=1
+# set${tab}N${tab}error${tab}tail${tab}mc
+1${tab}1${tab}-0.5${tab}0.5${tab}0.5
+1${tab}2${tab}0${tab}0.16666666666666666${tab}0.35355339059327373
+1${tab}3${tab}0.16666666666666666${tab}0.16666666666666666${tab}0.2886751345948129
+1${tab}4${tab}0${tab}0${tab}0.25" "" \
+    'printf "0 0\n1 1\n1 1\n0 0\n" | koksma-eval f2 | koksma-error'
+t error-told 0 "1${tab}1${tab}-0.75${tab}0.75${tab}0.75" "" \
+    'echo 0.1 .25 | koksma-error --exact 1 -q'
+t error-variance 0 "1${tab}4${tab}0.25${tab}0.25${tab}1.5" "" \
+    'printf "# koksma: variance=9\n0 1\n0 1\n0 -2\n0 1\n" |
+     koksma-error --exact 0 --prefixes 4 -q'
+t error-prefixes 0 "1${tab}3
+1${tab}4
+1${tab}8
+1${tab}16
+1${tab}20" "" \
+    'koksma-points halton -n 50 | koksma-eval f2 |
+     koksma-error --prefixes 3,2^2:20 --steps 1 -q | cut -f 1,2'
+t error-mean 0 "1${tab}1${tab}-0.5${tab}0.5${tab}0.5
+2${tab}1${tab}0.5${tab}0.5${tab}0.5" "" \
+    'printf "0 0\n0 1\n0 0\n0 1\n\n0 1\n0 0\n0 1\n0 0\n" | koksma-error --exact mean -q'
+t fit-one-path 0 "power${tab}-1${tab}nan${tab}nan${tab}nan${tab}nan${tab}none${tab}path${tab}-1/2=nan;-1=nan${tab}-" "" \
+    'printf "16 4\n64 1\n256 .25\n" | koksma-fit -x 1 -y 2 -q | cut -f 1-10'
+t fit-box 0 "1.5 3 2 8" "" \
+    'printf "# k K\n2 8\n4 22.627416997969522\n8 64\n" | koksma-fit -x k -y K -q |
+     awk "{ print 0 + sprintf(\"%.9f\", \$2), \$23, \$25, \$26 }"'
+t fit-even 0 "0.25" "" \
+    'printf "16 4\n64 1\n256 .25\n" |
+     koksma-fit -x 1 -y 2 -q -d 2 --area 3 --jump 1 --sigma 1 | cut -f 21'
+has star-curve 0 '^power	-0\.' \
     'for n in 64 128 256 512; do koksma-points halton -n $n; echo; done | koksma-star |
-     koksma-fit -x n -y upper'
+     koksma-fit'
+t path-of-many 0 "" "" \
+    'koksma-points random -n 2^10 --replicates 3 | koksma-eval f2 | koksma-error >e
+     koksma-fit --path 2 -q e >1; grep -v "^[13]" e | koksma-fit -q >2; cmp 1 2'
+has path-said 0 '^It is set 3 alone.  This is one path' 'koksma-fit --path 3 --explain e'
+has claim 0 '	-0.5	equivalent	-	claim=' \
+    'koksma-points random -n 2^13 --replicates 64 -s 5 | koksma-eval f2 | koksma-error |
+     koksma-fit --claim -0.5 --margin 0.2'
 t power-in-window 0 "" "" \
     'printf "16 4\n64 1\n256 .25\n" | koksma-fit -x 1 -y 2 -q --from 2^4 >/dev/null'
-has slope 0 'equivalent to -(D+1)/2D = -0.75' \
+has slope 0 '^Verdict: equivalent to -(D+1)/2D = -0.75, within 0.1' \
     'koksma-points halton -n 2^13 --scramble digits --replicates 64 | koksma-eval f2 |
      koksma-error | koksma-fit --explain --margin 0.1'
-has summary 0 "^64${tab}.*${tab}8\$" \
+has summary 0 "^64${tab}.*${tab}8${tab}0.0625\$" \
     'koksma-points halton -n 64 --scramble digits --replicates 8 | koksma-eval f2 |
      koksma-error --summary'
 t same-bits 0 "" "" \
@@ -121,11 +146,29 @@ t no-value 1 "" 'koksma-error: line 1: 1 column, but a point and its value take 
 t unequal 1 "" \
     'koksma-error: set 2 has 2 values, the first set 1: --summary takes equal ones' \
     'printf "0 1\n\n0 1\n0 1\n" | koksma-error --exact 0 --summary'
-t fit-column 1 "" 'koksma-fit: standard input: no column is called "error"' \
+t fit-column 1 "" 'koksma-fit: standard input: no column is called "error|rms|upper"' \
     'printf "# N err\n1 1\n" | koksma-fit'
 t fit-short 1 "" \
-    'koksma-fit: standard input: 1 usable N in the window, 0 dropped: a fit takes 3' \
+    'koksma-fit: standard input: 1 usable N in [0, inf], and a fit takes 3; left out: 0 incomplete, 0 of zeros, 0 below rounding' \
     'printf "16 4\n" | koksma-fit -x 1 -y 2'
+t fit-zeros 1 "" \
+    'koksma-fit: standard input: errors of 0 at all 3 N in the window: there is nothing to fit' \
+    'printf "16 0\n32 0\n64 0\n" | koksma-fit -x 1 -y 2'
+has fit-floor 1 '0 usable N in .*, 3 below rounding' \
+    'printf "# koksma: largest=1\n# N error\n16 4e-17\n32 2e-17\n64 1e-17\n" | koksma-fit'
+t fit-negative 1 "" \
+    'koksma-fit: standard input: row 2 has N = -32 and error 1: N must be above 0, both finite' \
+    'printf "16 2\n-32 1\n64 1\n" | koksma-fit -x 1 -y 2'
+t fit-no-interval 1 "" \
+    'koksma-fit: one path has no interval: --level and --margin take replicates' \
+    'printf "16 4\n64 1\n256 .25\n" | koksma-fit -x 1 -y 2 --level 0.9'
+t fit-path 1 "" 'koksma-fit: --path 2: the table has 1 sets' \
+    'printf "16 4\n64 1\n256 .25\n" | koksma-fit -x 1 -y 2 --path 2'
+t short-set 1 "" 'koksma-error: set 1 has 2 values, and --prefixes asks for 4' \
+    'printf "0 0\n0 1\n" | koksma-error --exact 0 --prefixes 1,4'
+t mean-of-one 1 "" \
+    'koksma-error: --exact mean takes replicates: the error of one set from its own mean ends at 0' \
+    'printf "0 0\n0 1\n" | koksma-error --exact mean'
 t fit-word 1 "" 'koksma-fit: line 2: column 2 is four, not a finite number' \
     'printf "16 4\n32 four\n" | koksma-fit -x 1 -y 2'
 
@@ -150,6 +193,10 @@ t sobol-dim 2 "" "koksma-points: dimension 51: sobol has 1 to 50$try" \
     'koksma-points sobol -d 51'
 t too-far 2 "" "koksma-points: indices reach beyond 2^64 - 1$try" \
     'koksma-points halton --start 18446744073709551615 -n 2'
+t prefixes-fall 2 "" \
+    "koksma-error: --prefixes takes numbers that rise, not \"4,2\"
+Try 'koksma-error -h'." 'koksma-error --prefixes 4,2'
+has prefixes-range 2 'takes a whole number from 8 to' 'koksma-error --prefixes 8:4'
 has method 2 '^koksma-star: -m takes .*, not "best"$' 'echo .5 | koksma-star -m best'
 has unknown-option 2 "Try 'koksma-star -h'." 'koksma-star --nonsense'
 has parameter 2 'f2 has a from 0 to 0.5, not 0.75' 'echo 0 0 | koksma-eval f2 -a .75'

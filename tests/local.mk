@@ -22,11 +22,14 @@ EXTRA_DIST += $(structure_scripts) %D%/cli_rows.sh %D%/replay.sh %D%/corpus
 if HAVE_CHECK
 check_LTLIBRARIES += %D%/liboracle.la
 %C%_liboracle_la_SOURCES = \
-  %D%/oracle.c %D%/oracle.h %D%/gen_fixture.h %D%/io_fixture.h \
+  %D%/oracle.c %D%/oracle.h %D%/fit_fixture.h %D%/gen_fixture.h \
+  %D%/io_fixture.h %D%/paths.h \
   %D%/npy_fixture.h
 
 unit_tests = \
-  %D%/test_curve %D%/test_extra %D%/test_fit %D%/test_gen %D%/test_gen_digits \
+  %D%/test_curve %D%/test_extra %D%/test_fit %D%/test_fit_coverage \
+  %D%/test_fit_judge %D%/test_fit_mixture %D%/test_fit_rules \
+  %D%/test_gen %D%/test_gen_digits \
   %D%/test_integrand %D%/test_io %D%/test_io_npy %D%/test_io_npy_bad \
   %D%/test_io_number %D%/test_io_reader %D%/test_io_table %D%/test_io_write \
   %D%/test_known %D%/test_num %D%/test_part %D%/test_points %D%/test_rng \
@@ -125,7 +128,7 @@ CLEANFILES     += $(benches)
 %C%_bench_star_LDADD   = lib/libcore.la
 %C%_bench_star_trade_SOURCES = %D%/bench_star_trade.c %D%/bench_star.h %D%/bench.h
 %C%_bench_star_trade_LDADD   = lib/libcore.la
-%C%_bench_fit_SOURCES  = %D%/bench_fit.c %D%/bench.h
+%C%_bench_fit_SOURCES  = %D%/bench_fit.c %D%/bench.h %D%/paths.h
 %C%_bench_fit_LDADD    = lib/libcore.la
 
 .PHONY: bench

@@ -209,7 +209,7 @@ START_TEST(every_allocation_may_fail)
     ck_assert_int_ge(exhaust(npy_job), 5);
     ck_assert_int_ge(exhaust(table_job), 4);
     ck_assert_int_ge(exhaust(curve_job), 1);
-    ck_assert_int_ge(exhaust(fit_job), 3);
+    ck_assert_int_ge(exhaust(fit_job), 6);
 }
 END_TEST
 
