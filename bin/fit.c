@@ -84,12 +84,12 @@ static void complete(fit_report *r, const char *about)
     if (isnan(r->sigma)) r->sigma = sqrt(said(about, "variance"));
 }
 
-/* Errors of replicates from 64 on: below that, chance zeros are many.  Halton's
+/* Errors of replicates from 16 on: below that, chance zeros are many.  Halton's
  * points begin to be even at the product of the bases, where the window reaches
  * far beyond it.  Other tables as a whole. */
 static double default_from(const koksma_table *t)
 {
-    double from = 64.0, product = 1.0, largest = 0.0, dim = said(t->about, "dim");
+    double from = 16.0, product = 1.0, largest = 0.0, dim = said(t->about, "dim");
     char family[16] = "";
 
     if (!t->labelled) return 0.0;

@@ -1,5 +1,5 @@
 /* What the fit finds where the theory is known, and what it costs: 128 replicates
- * to N = 2^17 or 2^20, fitted from 64 on, for the seeds 1 to 5; then the main job,
+ * to N = 2^17 or 2^20, fitted from 16 on, for the seeds 1 to 5; then the main job,
  * 32 replicates of f2, in memory.  All seeds are shown. */
 
 #include <string.h>
@@ -21,7 +21,7 @@ static koksma_fit_result fit(path_kind kind, size_t replicates,
                              koksma_fit_model model)
 {
     koksma_fit_data d = {xs, ys, sets, 0, replicates};
-    koksma_fit_opts o = {.from = 64.0, .scale = 1.0, .model = model};
+    koksma_fit_opts o = {.from = 16.0, .scale = 1.0, .model = model};
     koksma_fit_result r;
 
     for (size_t i = 0; i < replicates; i++)

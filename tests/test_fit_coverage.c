@@ -13,7 +13,7 @@ enum { POOL = 4096, TRIALS = 4000, MOST = 64 };
 static double xs[2 * POOL * PATH_ROWS], ys[2 * POOL * PATH_ROWS];
 static size_t of[2 * POOL * PATH_ROWS], each;
 
-static const koksma_fit_opts window = {.from = 64.0, .scale = 1.0};
+static const koksma_fit_opts window = {.from = 16.0, .scale = 1.0};
 
 static const path_kind kinds[] = {{"halton", "f2", 0.0, 7, 1 << 17},
                                   {"halton", "f3", 0.0, 7, 1 << 17},
