@@ -5,7 +5,7 @@
 /* Divide and conquer over one axis after the other. */
 
 /* Where every pair is cheaper than to divide: measured. */
-enum { BRUTE = 24 };
+static const size_t brute[] = {0, 24, 48, 128}; /* by rank */
 
 static ki_twice weight(const double *item) { return (ki_twice){item[0], item[1]}; }
 
@@ -24,17 +24,17 @@ static size_t rank_of(const ki_l2_worker *w, size_t axis)
  * order.  Returns how many they are. */
 static size_t partition(ki_l2_worker *w, ki_l2_list l, size_t axis, double rank)
 {
-    size_t size = w->stride * sizeof(double), at = rank_of(w, axis);
+    size_t at = rank_of(w, axis);
     double *front = l.item, *back = w->spare;
 
     for (size_t i = 0; i < l.n; i++) {
         const double *item = item_at(w, l, i);
 
         if (item[at] < rank) {
-            if (front != item) memcpy(front, item, size);
+            if (front != item) ki_l2_copy(front, item, w->stride);
             front += w->stride;
         } else {
-            memcpy(back, item, size);
+            ki_l2_copy(back, item, w->stride);
             back += w->stride;
         }
     }
@@ -120,7 +120,7 @@ void ki_l2_cross(ki_l2_worker *w, size_t axes, ki_l2_list a, ki_l2_list b)
         ki_l2_merge(w, a, b, -1);
         return;
     }
-    if (a.n * b.n <= BRUTE * (a.n + b.n)) {
+    if (a.n * b.n <= brute[ki_l2_rows[w->kind].rank] * (a.n + b.n)) {
         ki_l2_brute(w, axes, a, b);
         return;
     }
@@ -168,7 +168,7 @@ void ki_l2_within(ki_l2_worker *w, ki_l2_list a)
         within_one(w, a);
         return;
     }
-    if (a.n <= 2 * BRUTE) {
+    if (a.n <= 2 * brute[ki_l2_rows[w->kind].rank]) {
         for (size_t i = 1; i < a.n; i++)
             ki_l2_brute(w, w->dim, (ki_l2_list){a.item, i},
                         (ki_l2_list){item_at(w, a, i), 1});

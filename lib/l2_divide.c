@@ -1,4 +1,5 @@
 #include <stdlib.h>
+#include <string.h>
 
 #include "error.h"
 #include "l2_divide_kernels.h"
@@ -33,33 +34,27 @@ enum {
 
 typedef struct divide {
     ki_l2_job *job;
-    size_t levels;    /* of cuts with a task each; below, a task a part */
-    uint32_t **rank;  /* rank[k][i] of point i along coordinate k */
-    uint32_t **order; /* points by level: in parts, each by coordinate 0 */
+    size_t levels; /* of cuts with a task each; below, a task a part */
+    size_t stride;
+    ki_l2_key *key;   /* twice as many as points */
+    double *item;     /* the points, sorted by coordinate 0 */
+    uint32_t *place;  /* where in there point i is */
+    uint32_t **order; /* items by level: in parts, each by coordinate 0 */
     ki_l2_worker *worker;
     ki_twice *sum; /* of each task */
-    double steps, diagonal_steps;
+    double steps;
 } divide;
 
-typedef struct keyed {
-    double x;
-    uint32_t i;
-} keyed;
-
-static int by_key(const void *a, const void *b)
+/* The points in the order of coordinate k, ties in that of their indices. */
+static const ki_l2_key *sort(ki_l2_key *key, koksma_points p, size_t k)
 {
-    const keyed *p = a, *q = b;
+    for (size_t i = 0; i < p.n; i++) {
+        double x = p.x[i * p.dim + k] + 0.0; /* -0 is 0 */
 
-    if (p->x != q->x) return p->x < q->x ? -1 : 1;
-    return p->i < q->i ? -1 : 1;
-}
-
-/* Sort the points by coordinate k, ties by index. */
-static void sort(keyed *key, koksma_points p, size_t k)
-{
-    for (size_t i = 0; i < p.n; i++)
-        key[i] = (keyed){p.x[i * p.dim + k], (uint32_t)i};
-    qsort(key, p.n, sizeof *key, by_key);
+        memcpy(&key[i].bits, &x, sizeof x);
+        key[i].point = i;
+    }
+    return ki_l2_sort(key, key + p.n, p.n);
 }
 
 /* Part j of a level with `parts` parts begins at this rank along the last axis. */
@@ -71,56 +66,56 @@ static size_t begin_of(size_t n, size_t parts, size_t j)
 /* One level's order from the one above: parts are cut in two, stably. */
 static void refine(divide *s, size_t level)
 {
-    size_t n = s->job->p.n, parts = (size_t)1 << level;
-    const uint32_t *rank = s->rank[s->job->p.dim - 1];
+    koksma_points p = s->job->p;
+    size_t parts = (size_t)1 << level, at = s->stride - 1; /* of the last rank */
 
     for (size_t j = 0; j < parts / 2; j++) {
-        size_t begin = begin_of(n, parts, 2 * j),
-               cut = begin_of(n, parts, 2 * j + 1);
-        size_t end = begin_of(n, parts, 2 * j + 2), low = begin, high = cut;
+        size_t begin = begin_of(p.n, parts, 2 * j);
+        size_t cut = begin_of(p.n, parts, 2 * j + 1);
+        size_t end = begin_of(p.n, parts, 2 * j + 2), low = begin, high = cut;
 
         for (size_t i = begin; i < end; i++) {
             uint32_t point = s->order[level - 1][i];
+            bool below = s->item[point * s->stride + at] < (double)cut;
 
-            s->order[level][rank[point] < cut ? low++ : high++] = point;
+            s->order[level][below ? low++ : high++] = point;
         }
     }
 }
 
-static void prepare(divide *s, keyed *key)
+static void prepare(divide *s)
 {
     koksma_points p = s->job->p;
+    const ki_l2_key *sorted = sort(s->key, p, 0);
 
-    for (size_t k = p.dim; k-- > 0;) {
-        sort(key, p, k);
-        for (size_t i = 0; i < p.n; i++)
-            s->rank[k][key[i].i] = (uint32_t)i;
+    for (size_t i = 0; i < p.n; i++) {
+        double *item = s->item + i * s->stride;
+
+        item[0] = 1.0;
+        item[1] = 0.0;
+        memcpy(item + KI_L2_ITEM, p.x + sorted[i].point * p.dim,
+               p.dim * sizeof *item);
+        s->place[sorted[i].point] = s->order[0][i] = (uint32_t)i;
     }
-    for (size_t i = 0; i < p.n; i++)
-        s->order[0][i] = key[i].i; /* the last one sorted was coordinate 0 */
+    for (size_t k = 1; k < p.dim; k++) {
+        sorted = sort(s->key, p, k);
+        for (size_t i = 0; i < p.n; i++)
+            s->item[s->place[sorted[i].point] * s->stride + KI_L2_ITEM + p.dim + k -
+                    1] = (double)i;
+    }
     for (size_t level = 1; level <= s->levels; level++)
         refine(s, level);
 }
 
 /* The list of part j of a level. */
-static ki_l2_list gather(const divide *s, const ki_l2_worker *w, double *item,
-                         size_t level, size_t j)
+static ki_l2_list gather(const divide *s, double *to, size_t level, size_t j)
 {
-    koksma_points p = s->job->p;
-    size_t begin = begin_of(p.n, (size_t)1 << level, j);
-    size_t end = begin_of(p.n, (size_t)1 << level, j + 1);
-    ki_l2_list l = {item, end - begin};
+    size_t n = s->job->p.n, begin = begin_of(n, (size_t)1 << level, j);
+    size_t end = begin_of(n, (size_t)1 << level, j + 1);
+    ki_l2_list l = {to, end - begin};
 
-    for (size_t i = begin; i < end; i++, item += w->stride) {
-        uint32_t point = s->order[level][i];
-
-        item[0] = 1.0;
-        item[1] = 0.0;
-        for (size_t k = 0; k < p.dim; k++)
-            item[KI_L2_ITEM + k] = p.x[point * p.dim + k];
-        for (size_t k = 1; k < p.dim; k++)
-            item[KI_L2_ITEM + p.dim + k - 1] = s->rank[k][point];
-    }
+    for (size_t i = begin; i < end; i++, to += s->stride)
+        ki_l2_copy(to, s->item + s->order[level][i] * s->stride, s->stride);
     return l;
 }
 
@@ -152,7 +147,7 @@ static void work_on(void *state, size_t worker, size_t task)
 
     double before = w->steps;
     double *item = w->spare + n * w->stride;
-    ki_l2_list l = gather(s, w, item, level, task - first);
+    ki_l2_list l = gather(s, item, level, task - first);
 
     w->sum = (ki_twice_total){0.0, 0.0, 0};
     w->copies = item + l.n * w->stride;
@@ -209,18 +204,22 @@ static bool make(divide *s)
     while (p.dim > 1 && s->levels < LEVELS && p.n >> s->levels >= 2 * LEAF)
         s->levels++;
     tasks = ((size_t)2 << s->levels) - 1;
-    s->rank = tables(p.dim, p.n);
+    s->stride = KI_L2_ITEM + 2 * p.dim - 1;
+    s->key = ki_alloc(p.n, 2 * sizeof *s->key);
+    s->item = ki_alloc(p.n, s->stride * sizeof *s->item);
+    s->place = ki_alloc(p.n, sizeof *s->place);
     s->order = tables(s->levels + 1, p.n);
     s->sum = calloc(tasks, sizeof *s->sum);
     s->worker = calloc(threads, sizeof *s->worker);
-    if (s->rank == NULL || s->order == NULL || s->sum == NULL || s->worker == NULL)
+    if (s->key == NULL || s->item == NULL || s->place == NULL || s->order == NULL ||
+        s->sum == NULL || s->worker == NULL)
         return false;
     for (size_t i = 0; i < threads && i < tasks; i++) {
         ki_l2_worker *w = &s->worker[i];
 
         w->kind = s->job->kind;
         w->dim = p.dim;
-        w->stride = KI_L2_ITEM + 2 * p.dim - 1;
+        w->stride = s->stride;
         if (!make_room(s, w, p.n)) return false;
     }
     return true;
@@ -256,17 +255,15 @@ static ki_l2_number solve(divide *s)
 koksma_status ki_l2_divide(ki_l2_number *sum, ki_l2_job *job)
 {
     divide s = {.job = job};
-    keyed *key = ki_alloc(job->p.n, sizeof *key);
-    bool made = make(&s) && key != NULL;
+    bool made = make(&s);
 
     if (made) {
-        prepare(&s, key);
-        free(key);
-        key = NULL;
+        prepare(&s);
         *sum = solve(&s);
     }
-    free(key);
-    free_tables(s.rank, job->p.dim);
+    free(s.key);
+    free(s.item);
+    free(s.place);
     free_tables(s.order, s.levels + 1);
     for (size_t i = 0; s.worker != NULL && i < ki_team_threads(job->team); i++)
         free(s.worker[i].spare);

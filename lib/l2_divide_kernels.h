@@ -8,6 +8,14 @@
  * dim - 1, all of them different. */
 enum { KI_L2_ITEM = 2 };
 
+typedef struct ki_l2_key {
+    uint64_t bits; /* of a number >= 0 */
+    uint64_t point;
+} ki_l2_key;
+
+/* Sort by bits, stably; spare has room for n.  Returns where the result is. */
+ki_l2_key *ki_l2_sort(ki_l2_key *key, ki_l2_key *spare, size_t n);
+
 typedef struct ki_l2_list {
     double *item;
     size_t n;
@@ -33,11 +41,19 @@ void ki_l2_within(ki_l2_worker *w, ki_l2_list a);
 /* The part of that of pairs on either side of a rank along the last axis. */
 void ki_l2_apart(ki_l2_worker *w, ki_l2_list a, double rank);
 
-/* One level of it, where axes == 1; first and second are as in ki_l2_split. */
+/* ki_l2_cross with one axis.  With a role r >= 0 the weights are also multiplied by
+ * f_r (a) and g_r (b) of coordinate 1: the last level without copies. */
 void ki_l2_merge(ki_l2_worker *w, ki_l2_list a, ki_l2_list b, int role);
 
 /* Few items: every pair. */
 void ki_l2_brute(ki_l2_worker *w, size_t axes, ki_l2_list a, ki_l2_list b);
+
+/* Faster than memcpy for so few. */
+KI_L2_INLINE void ki_l2_copy(double *to, const double *from, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        to[i] = from[i];
+}
 
 /* f_r(x) and g_r(y) of the kind: for x <= y,  k(x,y) = sum over r of f_r(x) g_r(y).
  *

@@ -71,6 +71,13 @@ KI_L2_INLINE ki_twice factor(koksma_l2_kind kind, int rank, double x, double y)
     ki_twice k;
 
     if (kind == KOKSMA_L2_STAR) return ki_l2_second(kind, 0, high);
+    if (kind == KOKSMA_L2_PERIODIC || kind == KOKSMA_L2_WRAPAROUND) {
+        ki_twice s = ki_twice_sum(high, -low);
+
+        k = ki_twice_add(ki_l2_small(-1.0), s);
+        k = ki_twice_times(k, s); /* s^2 - s */
+        return ki_twice_add(ki_l2_small(kind == KOKSMA_L2_PERIODIC ? 0.5 : 1.5), k);
+    }
     k = ki_twice_times(ki_l2_first(kind, 0, low), ki_l2_second(kind, 0, high));
     for (int r = 1; r < rank; r++)
         k = ki_twice_add(k, ki_twice_times(ki_l2_first(kind, r, low),

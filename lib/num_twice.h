@@ -12,12 +12,15 @@
  * result: 3 u^2 for the sum, 5 u^2 for the product, u = 2^-53 [Joldes, Muller,
  * Popescu 2017, algorithms 6 and 12], unless a product is below 2^-960; what
  * underflow then loses is below 2^-1070. */
+/* Into every version of a loop for other processors, fma as one instruction. */
+#define KI_TWICE_INLINE static inline __attribute__((always_inline))
+
 typedef struct ki_twice {
     double hi, lo;
 } ki_twice;
 
 /* a + b, exactly. */
-static inline ki_twice ki_twice_sum(double a, double b)
+KI_TWICE_INLINE ki_twice ki_twice_sum(double a, double b)
 {
     ki_twice s;
 
@@ -26,7 +29,7 @@ static inline ki_twice ki_twice_sum(double a, double b)
 }
 
 /* a + b, exactly, where |a| >= |b| or a is 0. */
-static inline ki_twice ki_twice_normal(double a, double b)
+KI_TWICE_INLINE ki_twice ki_twice_normal(double a, double b)
 {
     double s = a + b;
 
@@ -34,14 +37,14 @@ static inline ki_twice ki_twice_normal(double a, double b)
 }
 
 /* a * b, exactly: that is what fma is for. */
-static inline ki_twice ki_twice_product(double a, double b)
+KI_TWICE_INLINE ki_twice ki_twice_product(double a, double b)
 {
     double p = a * b;
 
     return (ki_twice){p, fma(a, b, -p)};
 }
 
-static inline ki_twice ki_twice_add(ki_twice a, ki_twice b)
+KI_TWICE_INLINE ki_twice ki_twice_add(ki_twice a, ki_twice b)
 {
     ki_twice s = ki_twice_sum(a.hi, b.hi), t = ki_twice_sum(a.lo, b.lo);
 
@@ -49,7 +52,7 @@ static inline ki_twice ki_twice_add(ki_twice a, ki_twice b)
     return ki_twice_normal(s.hi, s.lo + t.lo);
 }
 
-static inline ki_twice ki_twice_times(ki_twice a, ki_twice b)
+KI_TWICE_INLINE ki_twice ki_twice_times(ki_twice a, ki_twice b)
 {
     ki_twice p = ki_twice_product(a.hi, b.hi);
 
@@ -57,12 +60,12 @@ static inline ki_twice ki_twice_times(ki_twice a, ki_twice b)
 }
 
 /* By a power of two, exactly but for underflow. */
-static inline ki_twice ki_twice_scale(ki_twice a, double power)
+KI_TWICE_INLINE ki_twice ki_twice_scale(ki_twice a, double power)
 {
     return (ki_twice){a.hi * power, a.lo * power};
 }
 
-static inline ki_twice ki_twice_negate(ki_twice a)
+KI_TWICE_INLINE ki_twice ki_twice_negate(ki_twice a)
 {
     return (ki_twice){-a.hi, -a.lo};
 }
@@ -76,7 +79,7 @@ typedef struct ki_twice_total {
     int steps;
 } ki_twice_total;
 
-static inline void ki_twice_total_add(ki_twice_total *s, ki_twice t)
+KI_TWICE_INLINE void ki_twice_total_add(ki_twice_total *s, ki_twice t)
 {
     double rest;
 
@@ -85,7 +88,7 @@ static inline void ki_twice_total_add(ki_twice_total *s, ki_twice t)
     if ((++s->steps & 31) == 0) s->sum = ki_two_sum(s->sum, s->rest, &s->rest);
 }
 
-static inline ki_twice ki_twice_total_value(const ki_twice_total *s)
+KI_TWICE_INLINE ki_twice ki_twice_total_value(const ki_twice_total *s)
 {
     return ki_twice_sum(s->sum, s->rest);
 }
