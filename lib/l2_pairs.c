@@ -15,9 +15,9 @@ enum { PLAIN_DIM = 200 };
 typedef struct pairs {
     ki_l2_job *job;
     double *panels;
-    size_t panel_size; /* numbers in one */
-    ki_twice *sum;     /* of each block */
-    bool scaled;
+    size_t panel_size;    /* numbers in one */
+    ki_twice *sum;        /* of each block */
+    bool scaled, nothing; /* nothing: K is 0 everywhere */
     int64_t e;
 } pairs;
 
@@ -56,6 +56,7 @@ static void find_unit(pairs *s)
         s->e = v.e;
         any = true;
     }
+    s->nothing = s->scaled && !any;
 }
 
 static void work_on(void *state, size_t worker, size_t task)
@@ -96,6 +97,7 @@ static double error_of(const pairs *s, double sum)
     double n = (double)s->job->p.n, dim = (double)s->job->p.dim;
     double ulps = (s->job->row->ulps + 1.0) * dim + 2.0;
 
+    if (s->nothing) return 0.0;
     return sum * (ulps * 0x1p-53 * (1.0 + 0x1p-20) + 0x1p-91 +
                   (n / 32.0 + 100.0) * 0x1p-102) +
            n * n * 0x1p-800;
