@@ -453,13 +453,14 @@ static long double naive(koksma_points p, koksma_l2_kind kind)
         long double h = -2 / n;
 
         for (size_t k = 0; k < p.dim; k++)
-            h *= naive_h(kind, p.x[i * p.dim + k]);
+            h *= naive_h(kind, (long double)p.x[i * p.dim + k]);
         sum += h;
         for (size_t j = 0; j < p.n; j++) {
             long double v = 1 / (n * n);
 
             for (size_t k = 0; k < p.dim; k++)
-                v *= naive_k(kind, p.x[i * p.dim + k], p.x[j * p.dim + k]);
+                v *= naive_k(kind, (long double)p.x[i * p.dim + k],
+                             (long double)p.x[j * p.dim + k]);
             sum += v;
         }
     }
@@ -558,7 +559,7 @@ static int stop(void *state, double lower, double upper, double work)
 
 START_TEST(refusals)
 {
-    double x[KOKSMA_L2_DIVIDE_DIM + 1] = {0.5}, bad[] = {0.5, NAN};
+    double x[KOKSMA_L2_DIVIDE_DIM + 1] = {0.5}, bad[] = {0.5, (double)NAN};
     koksma_l2_opts opts = KOKSMA_L2_DEFAULTS;
     koksma_l2_result r = {.work = 42.0};
     koksma_error err;
