@@ -83,7 +83,7 @@ typedef struct koksma_l2_opts {
 /* Bound a discrepancy of p in the mean square.
  *
  * Out:     out    intervals that contain the truth, every rounding counted.  By
- *                 divide squared is about 1e-24 wide for dim 2 and a million
+ *                 divide squared is about 1e-22 wide for dim 2 and a million
  *                 points; by pairs some dim 1e-15 times the mean of K
  *          err    filled on failure; may be NULL
  * In:      p      n < 2^31 points in [0,1]^dim, ties allowed

@@ -10,7 +10,7 @@
  *
  * Each of the operations below that is not exact is off by less than 2^-103 of its
  * result: 3 u^2 for the sum, 5 u^2 for the product, u = 2^-53 [Joldes, Muller,
- * Popescu 2017, algorithms 6 and 12], unless a product is below 2^-960; what
+ * Popescu 2017, algorithms 6 and 11], unless a product is below 2^-960; what
  * underflow then loses is below 2^-1070. */
 /* Into every version of a loop for other processors, fma as one instruction. */
 #define KI_TWICE_INLINE static inline __attribute__((always_inline))
