@@ -11,7 +11,10 @@ noinst_LTLIBRARIES = %D%/libcore.la
   %D%/integrand.c %D%/integrand.h \
   %D%/io.c %D%/io.h %D%/io_kernels.h %D%/io_about.c %D%/io_lines.c %D%/io_npy.c \
   %D%/io_number.c %D%/io_table.c %D%/io_text.c %D%/io_write.c \
-  %D%/num.c %D%/num.h %D%/num_kernels.h %D%/num_student.c \
+  %D%/l2.c %D%/l2.h %D%/l2_kernels.h %D%/l2_cross.c %D%/l2_divide.c \
+  %D%/l2_divide_kernels.h %D%/l2_kinds.c %D%/l2_linear.c %D%/l2_merge.c \
+  %D%/l2_number.c %D%/l2_pairs.c %D%/l2_sort.c %D%/l2_tile.c \
+  %D%/num.c %D%/num.h %D%/num_kernels.h %D%/num_student.c %D%/num_twice.h \
   %D%/part.c %D%/part.h \
   %D%/points.c %D%/points.h \
   %D%/rng.c %D%/rng.h \
@@ -45,7 +48,7 @@ lib_LTLIBRARIES = %D%/libkoksma.la
 include_HEADERS = %D%/koksma.h
 koksmaincludedir = $(includedir)/koksma
 koksmainclude_HEADERS = \
-  %D%/curve.h %D%/fit.h %D%/gen.h %D%/integrand.h %D%/io.h %D%/num.h \
+  %D%/curve.h %D%/fit.h %D%/gen.h %D%/integrand.h %D%/io.h %D%/l2.h %D%/num.h \
   %D%/points.h %D%/rng.h %D%/star.h
 
 pkgconfig_DATA = %D%/koksma.pc

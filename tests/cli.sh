@@ -172,6 +172,30 @@ t mean-of-one 1 "" \
 t fit-word 1 "" 'koksma-fit: line 2: column 2 is four, not a finite number' \
     'printf "16 4\n32 four\n" | koksma-fit -x 1 -y 2'
 
+# ---- L2 discrepancies --------------------------------------------------------------
+
+t l2 0 "# n${tab}dim${tab}lower${tab}upper
+1${tab}1${tab}0.08333333333333331${tab}0.08333333333333334" "" \
+    'echo 0.5 | koksma-l2 -k centered -m divide --squared'
+t l2-one-point 0 "1${tab}1${tab}0.5773502691896256${tab}0.577350269189626" "" \
+    'echo 0 | koksma-l2 -q'
+t l2-prefixes 0 "1${tab}1
+2${tab}1
+4${tab}1
+3${tab}1" "" \
+    'seq 0 0.25 1 | koksma-l2 -q --prefixes 1:4,3 | cut -f 1,2'
+t l2-prefix-too-long 1 "" 'koksma-l2: --prefixes: 2 points are asked for, and the set has 1' \
+    'echo 0 | koksma-l2 -q --prefixes 2'
+has l2-log10 0 '^1	1000	-238.56' \
+    'koksma-points grid -d 1000 -n 1 | sed "/^#/d;s/0/1/g" | koksma-l2 -q --log10'
+has l2-small 0 'out of the range of doubles: see --log10' \
+    'koksma-points grid -d 1000 -n 1 | sed "s/0.5/1/g" | koksma-l2 -k extreme'
+has l2-verbose 0 'star, divide, .* steps' 'koksma-points halton -n 9 | koksma-l2 -v -m divide'
+has l2-prefix-word 2 '^koksma-l2: --prefixes takes' 'echo 0 | koksma-l2 --prefixes 4:2'
+has l2-kind 2 '^koksma-l2: -k takes star, .*, not "best"$' 'echo 0 | koksma-l2 -k best'
+has l2-method 2 '^koksma-l2: -m takes .*, not "best"$' 'echo 0 | koksma-l2 -m best'
+has l2-time 3 '0	inf$' 'koksma-points random -d 20 -n 30000 | koksma-l2 -q -t 0.01 -m pairs'
+
 # ---- Bad command lines -------------------------------------------------------------
 
 try="

@@ -32,9 +32,9 @@ unit_tests = \
   %D%/test_gen %D%/test_gen_digits \
   %D%/test_integrand %D%/test_io %D%/test_io_npy %D%/test_io_npy_bad \
   %D%/test_io_number %D%/test_io_reader %D%/test_io_table %D%/test_io_write \
-  %D%/test_known %D%/test_num %D%/test_part %D%/test_points %D%/test_rng \
-  %D%/test_star %D%/test_star_bound %D%/test_star_lines %D%/test_star_methods \
-  %D%/test_star_search %D%/test_star_threads
+  %D%/test_known %D%/test_l2 %D%/test_num %D%/test_part %D%/test_points \
+  %D%/test_rng %D%/test_star %D%/test_star_bound %D%/test_star_lines \
+  %D%/test_star_methods %D%/test_star_search %D%/test_star_threads
 LDADD = %D%/liboracle.la lib/libcore.la $(CHECK_LIBS)
 
 
@@ -117,7 +117,8 @@ clean-fuzz:
 # ---- Benches ---------------------------------------------------------------------
 
 benches = \
-  %D%/bench_gen %D%/bench_io %D%/bench_star %D%/bench_star_trade %D%/bench_fit
+  %D%/bench_gen %D%/bench_io %D%/bench_star %D%/bench_star_trade %D%/bench_l2 \
+  %D%/bench_fit
 EXTRA_PROGRAMS += $(benches)
 CLEANFILES     += $(benches)
 %C%_bench_gen_SOURCES  = %D%/bench_gen.c %D%/bench.h
@@ -128,6 +129,8 @@ CLEANFILES     += $(benches)
 %C%_bench_star_LDADD   = lib/libcore.la
 %C%_bench_star_trade_SOURCES = %D%/bench_star_trade.c %D%/bench_star.h %D%/bench.h
 %C%_bench_star_trade_LDADD   = lib/libcore.la
+%C%_bench_l2_SOURCES   = %D%/bench_l2.c %D%/bench.h
+%C%_bench_l2_LDADD     = lib/libcore.la
 %C%_bench_fit_SOURCES  = %D%/bench_fit.c %D%/bench.h %D%/paths.h
 %C%_bench_fit_LDADD    = lib/libcore.la
 
