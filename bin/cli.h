@@ -93,6 +93,13 @@ bool cli_next_set(cli_input *input, size_t *columns);
 /* The same, and read the set, whole; settles `several`. */
 bool cli_read_set(cli_input *input, koksma_set *set);
 
+/* measure(p, state) for the prefixes of these sizes, or for the whole set if count
+ * is 0, until one returns false, which is then returned. */
+typedef bool cli_measure(koksma_points p, void *state);
+bool cli_each_prefix(const cli_input *input, const koksma_set *set,
+                     const uint64_t *n, size_t count, cli_measure *measure,
+                     void *state);
+
 /* Exit 1 with err, naming file and line. */
 _Noreturn void cli_fail_input(const cli_input *input, const koksma_error *err);
 

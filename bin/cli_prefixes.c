@@ -63,3 +63,19 @@ size_t cli_prefixes(uint64_t **n, const char *option, const char *text,
     *n = l.n;
     return l.count;
 }
+
+bool cli_each_prefix(const cli_input *input, const koksma_set *set,
+                     const uint64_t *n, size_t count, cli_measure *measure,
+                     void *state)
+{
+    koksma_points p = koksma_set_view(set);
+
+    if (count == 0) return measure(p, state);
+    if (n[count - 1] > p.n)
+        cli_fail("set %s has %zu points, and --prefixes asks for %ju", input->label,
+                 p.n, (uintmax_t)n[count - 1]);
+    for (size_t i = 0; i < count; i++)
+        if (!measure((koksma_points){p.x, (size_t)n[i], p.dim}, state))
+            return false;
+    return true;
+}

@@ -15,7 +15,7 @@ static const cli_option options[] = {
     {'m', "method", "METHOD", "auto, pairs or divide (default auto)"},
     {SQUARED, "squared", NULL, "write the square"},
     {LOG10, "log10", NULL, "write the decimal logarithm"},
-    {PREFIXES, "prefixes", "LIST", "a row for so many first points each: 2^4:2^16"},
+    {PREFIXES, "prefixes", "A:B|N,N,...", "a row for so many first points each"},
     {'t', "time", "SECONDS", "stop then"},
     {'j', "threads", "THREADS", "how many threads (default 0: one a processor)"},
     {'p', "progress", NULL, "a live line on standard error"},
@@ -39,7 +39,8 @@ typedef struct l2_options {
     koksma_l2_opts opts;
     cli_watch watch;
     bool squared, log10, verbose;
-    const char *prefixes;
+    uint64_t *prefix; /* NULL: only the whole set */
+    size_t prefixes;
     const cli_input *input;
 } l2_options;
 
@@ -92,8 +93,9 @@ static bool out_of_range(const l2_options *o, const koksma_l2_result *r)
 }
 
 /* Returns whether the set was finished. */
-static bool measure(koksma_points p, l2_options *o)
+static bool measure(koksma_points p, void *state)
 {
+    l2_options *o = state;
     koksma_l2_result r;
     koksma_error err;
     koksma_status status;
@@ -114,71 +116,6 @@ static bool measure(koksma_points p, l2_options *o)
     return status == KOKSMA_OK;
 }
 
-/* ---- Prefixes ---------------------------------------------------------------- */
-
-/* The next count of a list like 2^4:2^16,100000, all doubled from the first of a
- * pair to the second; 0 at the end.  *text moves behind it. */
-typedef struct counts {
-    const char *text;
-    uint64_t next, last;
-} counts;
-
-static void read_counts(counts *c)
-{
-    char item[64], *colon;
-    size_t size = strcspn(c->text, ",");
-
-    if (size >= sizeof item) cli_usage("--prefixes: \"%s\" is no count", c->text);
-    memcpy(item, c->text, size);
-    item[size] = '\0';
-    c->text += size + (c->text[size] == ',');
-    colon = strchr(item, ':');
-    if (colon != NULL) *colon = '\0';
-    c->next = c->last = cli_count("--prefixes", item, 1, (uint64_t)1 << 62);
-    if (colon != NULL)
-        c->last = cli_count("--prefixes", colon + 1, c->next, (uint64_t)1 << 62);
-}
-
-static uint64_t next_count(counts *c)
-{
-    uint64_t n;
-
-    if (c->next > c->last || c->next == 0) {
-        if (*c->text == '\0') return 0;
-        read_counts(c);
-    }
-    n = c->next;
-    c->next *= 2;
-    return n;
-}
-
-/* Returns whether all were finished. */
-static bool measure_set(const koksma_set *set, l2_options *o)
-{
-    koksma_points p = koksma_set_view(set);
-    counts c = {.text = o->prefixes != NULL ? o->prefixes : ""};
-    uint64_t n;
-
-    if (o->prefixes == NULL) return measure(p, o);
-    while ((n = next_count(&c)) != 0) {
-        if (n > set->n)
-            cli_fail("--prefixes: %ju points are asked for, and the set has %zu",
-                     (uintmax_t)n, set->n);
-        p.n = (size_t)n;
-        if (!measure(p, o)) return false;
-    }
-    return true;
-}
-
-/* All of a list, so that a word in it is told before work begins. */
-static void check_prefixes(const char *list)
-{
-    counts c = {.text = list};
-
-    while (next_count(&c) != 0)
-        ;
-}
-
 int main(int argc, char *argv[])
 {
     l2_options o = {.opts = {.progress = cli_watch_progress}};
@@ -193,8 +130,7 @@ int main(int argc, char *argv[])
         case SQUARED: o.squared = true; break;
         case LOG10: o.log10 = true; break;
         case PREFIXES:
-            check_prefixes(optarg);
-            o.prefixes = optarg;
+            o.prefixes = cli_prefixes(&o.prefix, "--prefixes", optarg, 1);
             break;
         case 't': o.watch.seconds = cli_real("-t", optarg, 1e-3, 1e9); break;
         case 'j': o.opts.threads = cli_count("-j", optarg, 0, 65536); break;
@@ -209,8 +145,9 @@ int main(int argc, char *argv[])
     while (finished && cli_read_set(&input, &set)) {
         if (!header) print_header(&o);
         header = true;
-        finished = measure_set(&set, &o);
+        finished = cli_each_prefix(&input, &set, o.prefix, o.prefixes, measure, &o);
     }
     koksma_set_free(&set);
+    free(o.prefix);
     cli_finish(finished ? CLI_DONE : CLI_STOPPED);
 }

@@ -147,8 +147,9 @@ static const char *reason(const star_options *o, const koksma_star_result *r,
 }
 
 /* Returns whether it was finished. */
-static bool measure(koksma_points p, star_options *o)
+static bool measure(koksma_points p, void *state)
 {
+    star_options *o = state;
     koksma_star_result r = {.witness.corner = malloc(p.dim * sizeof(double))};
     koksma_error err;
     koksma_status status;
@@ -171,20 +172,6 @@ static bool measure(koksma_points p, star_options *o)
                  methods[r.method].steps, cli_seconds(&o->watch));
     free(r.witness.corner);
     return status == KOKSMA_OK;
-}
-
-static bool measure_prefixes(const koksma_set *set, star_options *o)
-{
-    koksma_points p = koksma_set_view(set);
-    bool finished = true;
-
-    if (o->prefixes == 0) return measure(p, o);
-    if (o->prefix[o->prefixes - 1] > p.n)
-        cli_fail("set %s has %zu points, and --prefixes asks for %ju",
-                 o->input->label, p.n, (uintmax_t)o->prefix[o->prefixes - 1]);
-    for (size_t i = 0; i < o->prefixes && finished; i++)
-        finished = measure((koksma_points){p.x, o->prefix[i], p.dim}, o);
-    return finished;
 }
 
 int main(int argc, char *argv[])
@@ -228,7 +215,7 @@ int main(int argc, char *argv[])
     o.input = &input;
     o.opts.state = &o;
     while (finished && cli_read_set(&input, &set))
-        finished = measure_prefixes(&set, &o);
+        finished = cli_each_prefix(&input, &set, o.prefix, o.prefixes, measure, &o);
     koksma_set_free(&set);
     free(o.prefix);
     cli_finish(finished ? CLI_DONE : CLI_STOPPED);

@@ -182,9 +182,9 @@ t l2-one-point 0 "1${tab}1${tab}0.5773502691896256${tab}0.577350269189626" "" \
 t l2-prefixes 0 "1${tab}1
 2${tab}1
 4${tab}1
-3${tab}1" "" \
-    'seq 0 0.25 1 | koksma-l2 -q --prefixes 1:4,3 | cut -f 1,2'
-t l2-prefix-too-long 1 "" 'koksma-l2: --prefixes: 2 points are asked for, and the set has 1' \
+5${tab}1" "" \
+    'seq 0 0.25 1 | koksma-l2 -q --prefixes 1:4,5 | cut -f 1,2'
+t l2-prefix-too-long 1 "" 'koksma-l2: set 1 has 1 points, and --prefixes asks for 2' \
     'echo 0 | koksma-l2 -q --prefixes 2'
 has l2-log10 0 '^1	1000	-238.56' \
     'koksma-points grid -d 1000 -n 1 | sed "/^#/d;s/0/1/g" | koksma-l2 -q --log10'
