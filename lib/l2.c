@@ -97,7 +97,7 @@ static void conclude(koksma_l2_result *r, ki_l2_number v)
 /* ---- The public function --------------------------------------------------------
  */
 
-/* Where divide is faster, as measured with one thread, by its rank. */
+/* Where divide is faster with one thread, about, by its rank. */
 static koksma_l2_method choose(const koksma_l2_opts *opts, koksma_points p)
 {
     static const double FROM[4][6] = {

@@ -4,7 +4,7 @@
 
 /* Divide and conquer over one axis after the other. */
 
-/* Where every pair is cheaper than to divide: measured. */
+/* Where every pair is cheaper than to divide, about. */
 static const size_t brute[] = {0, 12, 12, 24}; /* by rank */
 
 static ki_twice weight(const double *item) { return (ki_twice){item[0], item[1]}; }
