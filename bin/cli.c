@@ -74,11 +74,16 @@ _Noreturn void cli_fail_as(const koksma_error *err)
     cli_fail("%s", err->text);
 }
 
-_Noreturn void cli_finish(int status)
+void cli_flush(void)
 {
     errno = 0;
     if (fflush(stdout) != 0 || ferror(stdout))
         cli_fail("standard output: cannot write: %s", strerror(errno));
+}
+
+_Noreturn void cli_finish(int status)
+{
+    cli_flush();
     exit(status);
 }
 

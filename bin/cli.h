@@ -44,6 +44,12 @@ uint64_t cli_count(const char *option, const char *text, uint64_t least,
                    uint64_t most);
 double cli_real(const char *option, const char *text, double least, double most);
 
+/* The sizes of prefixes: numbers and ranges A:B apart by commas, all rising; a
+ * range is A 2^(i/steps) rounded, for i = 0, 1, ..., as far as B, and B.  Returns
+ * how many there are; *n is the caller's to free. */
+size_t cli_prefixes(uint64_t **n, const char *option, const char *text,
+                    unsigned steps);
+
 /* Write v in the fewest digits that read back as v; a NaN as "nan". */
 void cli_number(double v);
 
@@ -55,7 +61,10 @@ _Noreturn void cli_fail(const char *format, ...)
 _Noreturn void cli_fail_as(const koksma_error *err); /* not about an input */
 void cli_note(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/* Flush standard output and leave: with status, or 1 when it cannot be written. */
+/* Flush standard output, and leave with 1 when it cannot be written. */
+void cli_flush(void);
+
+/* The same, and leave with status. */
 _Noreturn void cli_finish(int status);
 
 /* ---- Inputs: the FILEs of the command line, or standard input
@@ -83,6 +92,13 @@ bool cli_next_set(cli_input *input, size_t *columns);
 
 /* The same, and read the set, whole; settles `several`. */
 bool cli_read_set(cli_input *input, koksma_set *set);
+
+/* measure(p, state) for the prefixes of these sizes, or for the whole set if count
+ * is 0, until one returns false, which is then returned. */
+typedef bool cli_measure(koksma_points p, void *state);
+bool cli_each_prefix(const cli_input *input, const koksma_set *set,
+                     const uint64_t *n, size_t count, cli_measure *measure,
+                     void *state);
 
 /* Exit 1 with err, naming file and line. */
 _Noreturn void cli_fail_input(const cli_input *input, const koksma_error *err);

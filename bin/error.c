@@ -1,16 +1,22 @@
 /* koksma-error: the running integration error of each set of values. */
 
+#include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "cli.h"
 #include "curve.h"
+#include "error_report.h"
 
-enum { EXACT = CLI_LONG, STEPS, SUMMARY };
+enum { EXACT = CLI_LONG, STEPS, PREFIXES, SUMMARY };
 
 static const cli_option options[] = {
     {'d', "dim", "DIM", "the integrand's dimension, told to koksma-fit"},
-    {EXACT, "exact", "VALUE", "the exact integral (default: as the input says)"},
+    {EXACT, "exact", "VALUE",
+     "the exact integral, or mean (default: as input says)"},
     {STEPS, "steps", "K", "N's to the octave (default 2)"},
+    {PREFIXES, "prefixes", "A:B|N,N,...",
+     "these N alone (default: from 1 to the end)"},
     {SUMMARY, "summary", NULL, "root mean squares over the sets instead"},
     {0},
 };
@@ -21,154 +27,171 @@ static const cli_tool tool = {
 
 enum { BLOCK = 4096 };
 
-/* What --summary keeps: error[r*count + j] is that of set r at n[j]. */
-typedef struct curves {
-    double *error;
-    uint64_t *n;
-    size_t count, sets;
-} curves;
+typedef struct error_options {
+    bool told, mean, summary; /* told: the integral */
+    uint64_t steps;
+    const char *prefixes;
+} error_options;
 
-/* What is known of the values goes on to koksma-fit, with what was told here. */
-typedef struct header {
-    char about[512];
-    double exact;
-    uint64_t dim;
-    bool told; /* exact, on the command line */
-} header;
+/* What all values so far have added up to. */
+typedef struct totals {
+    uint64_t n;
+    double error, square, largest; /* means of deviations and of their squares */
+} totals;
 
-static void print_header(const header *h, const char *columns)
+static void add_total(totals *t, koksma_curve_total c)
 {
-    if (cli_quiet()) return;
-    printf("# koksma:%s", h->about);
-    if (h->dim > 0) printf(" dim=%ju", (uintmax_t)h->dim);
-    if (h->told) {
-        fputs(" exact=", stdout);
-        cli_number(h->exact);
-    }
-    printf("\n# %s\n", columns);
+    double share = (double)c.n / (double)(t->n + c.n);
+
+    t->n += c.n;
+    t->error += share * (c.error - t->error);
+    t->square += share * (c.square - t->square);
+    t->largest = fmax(t->largest, c.largest);
 }
 
-static void print_rows(const char *label, const koksma_curve_row *rows,
-                       size_t count)
-{
-    for (size_t j = 0; j < count; j++) {
-        printf("%s\t%ju\t", label, (uintmax_t)rows[j].n);
-        cli_number(rows[j].error);
-        putchar('\t');
-        cli_number(rows[j].tail);
-        putchar('\n');
-    }
-}
-
-static void keep_rows(curves *c, const char *label, const koksma_curve_row *rows,
-                      size_t count)
-{
-    size_t room = (c->sets + 1) * count * sizeof *c->error;
-
-    if (c->sets > 0 && (count != c->count || rows[count - 1].n != c->n[count - 1]))
-        cli_fail(
-            "set %s has %ju values, the first set %ju: --summary takes equal ones",
-            label, (uintmax_t)rows[count - 1].n, (uintmax_t)c->n[c->count - 1]);
-    c->error = realloc(c->error, room);
-    if (c->sets == 0) c->n = malloc(count * sizeof *c->n);
-    if (c->error == NULL || c->n == NULL)
-        cli_fail("not enough memory for the summary");
-    for (size_t j = 0; j < count; j++) {
-        c->n[j] = rows[j].n;
-        c->error[c->sets * count + j] = rows[j].error;
-    }
-    c->count = count;
-    c->sets++;
-}
-
-static void print_summary(const curves *c)
-{
-    double *column = malloc(c->sets * sizeof *column);
-
-    if (column == NULL) cli_fail("not enough memory for the summary");
-    for (size_t j = 0; j < c->count; j++) {
-        for (size_t r = 0; r < c->sets; r++)
-            column[r] = c->error[r * c->count + j];
-
-        koksma_estimate rms = koksma_curve_rms(column, c->sets, 0.95);
-
-        printf("%ju\t", (uintmax_t)c->n[j]);
-        cli_number(rms.value);
-        putchar('\t');
-        cli_number(rms.lower);
-        putchar('\t');
-        cli_number(rms.upper);
-        printf("\t%zu\n", c->sets);
-    }
-    free(column);
-}
-
-/* Read the set's values into the curve. */
+/* Read the set's values into the curve.  The mean will be measured from the first
+ * value there is. */
 static void read_curve(koksma_curve *curve, cli_input *input, size_t columns,
-                       double exact)
+                       double *exact, bool unknown)
 {
     double *rows = malloc(BLOCK * columns * sizeof *rows);
     koksma_error err;
     size_t got = 1;
 
     if (rows == NULL) cli_fail("not enough memory for %zu columns", columns);
-    koksma_curve_begin(curve, exact);
-    while (got > 0) {
+    for (bool begun = false; got > 0; begun = true) {
         if (koksma_reader_rows(input->reader, rows, BLOCK, &got, &err))
             cli_fail_input(input, &err);
+        if (!begun && unknown && got > 0) *exact = rows[columns - 1];
+        if (!begun) koksma_curve_begin(curve, *exact);
         koksma_curve_add(curve, rows + columns - 1, columns, got);
     }
     free(rows);
 }
 
+/* The standard deviation of one value: what the input says, or else what its values
+ * show, about the integral.  Returns the header, completed. */
+static error_header complete(error_header h, const totals *t)
+{
+    double variance;
+
+    h.largest = t->largest;
+    h.sigma_from = "variance";
+    if (koksma_about_number(h.about, "variance", &variance) && variance >= 0.0) {
+        h.sigma = sqrt(variance);
+    } else {
+        h.sigma_from = "values";
+        h.sigma = sqrt(t->square);
+    }
+    if (!isfinite(h.sigma)) h.sigma = nan("");
+    return h;
+}
+
+/* Measure what was kept from the mean of all values. */
+static void take_mean(error_sets *all, error_header *h, totals *t)
+{
+    if (all->count < 2)
+        cli_fail("--exact mean takes replicates: the error of one set from its own "
+                 "mean ends at 0");
+    error_sets_shift(all, t->error);
+    h->exact += t->error;
+    t->square = fmax(t->square - t->error * t->error, 0.0);
+}
+
+static koksma_curve *open_curve(const error_options *o, uint64_t *last)
+{
+    koksma_curve *curve = NULL;
+    koksma_error err;
+    uint64_t *n;
+    size_t count;
+
+    *last = 0;
+    if (o->prefixes == NULL) {
+        if (koksma_curve_open(&curve, (unsigned)o->steps, &err)) cli_fail_as(&err);
+        return curve;
+    }
+    count = cli_prefixes(&n, "--prefixes", o->prefixes, (unsigned)o->steps);
+    if (koksma_curve_open_at(&curve, n, count, &err)) cli_fail_as(&err);
+    *last = n[count - 1];
+    free(n);
+    return curve;
+}
+
+static void run(cli_input *input, const error_options *o, error_header h)
+{
+    static const char columns_of_rows[] = "set\tN\terror\ttail\tmc";
+    error_sets all = {0};
+    totals t = {0};
+    uint64_t last;
+    koksma_curve *curve = open_curve(o, &last);
+    bool keep = o->summary || o->mean;
+    size_t columns;
+
+    for (bool first = true; cli_next_set(input, &columns); first = false) {
+        const koksma_curve_row *rows;
+        koksma_error err;
+        size_t count;
+
+        snprintf(h.about, sizeof h.about, "%s", koksma_reader_about(input->reader));
+        if (!o->told && !o->mean &&
+            !koksma_about_number(h.about, "exact", &h.exact))
+            cli_fail(
+                "the input does not say the exact integral: give --exact VALUE");
+        read_curve(curve, input, columns, &h.exact, o->mean && first);
+        if (koksma_curve_rows(curve, &rows, &count, &err))
+            cli_fail_input(input, &err);
+
+        koksma_curve_total total = koksma_curve_so_far(curve);
+
+        if (total.n < last)
+            cli_fail("set %s has %ju values, and --prefixes asks for %ju",
+                     input->label, (uintmax_t)total.n, (uintmax_t)last);
+        if (first || keep) add_total(&t, total);
+        if (first && !keep) {
+            h = complete(h, &t);
+            error_print_header(&h, columns_of_rows);
+        }
+        if (keep)
+            error_sets_keep(&all, input->label, rows, count, total.n);
+        else
+            error_print_rows(input->label, rows, count, h.sigma);
+    }
+    if (o->mean) take_mean(&all, &h, &t);
+    if (o->summary) error_sets_check_equal(&all);
+    if (keep) h = complete(h, &t);
+    if (keep)
+        error_print_header(&h, o->summary ? "N\trms\tlower\tupper\tsets\tmc"
+                                          : columns_of_rows);
+    if (o->summary) error_print_summary(&all, h.sigma);
+    for (size_t r = 0; r < all.count && !o->summary; r++)
+        error_print_rows(all.set[r].label, all.set[r].rows, all.set[r].count,
+                         h.sigma);
+    error_sets_free(&all);
+    koksma_curve_close(curve);
+}
+
 int main(int argc, char *argv[])
 {
-    bool summary = false, first = true;
-    header h = {.about = ""};
-    uint64_t steps = 2;
-    curves all = {0};
-    size_t columns;
+    error_options o = {.steps = 2};
+    error_header h = {.about = ""};
     int c;
 
     while ((c = cli_next(&tool, argc, argv)) != -1)
         switch (c) {
         case 'd': h.dim = cli_count("-d", optarg, 1, SIZE_MAX); break;
         case EXACT:
-            h.exact = cli_real("--exact", optarg, -1e300, 1e300);
-            h.told = true;
+            o.mean = strcmp(optarg, "mean") == 0;
+            o.told = !o.mean;
+            if (o.told) h.exact = cli_real("--exact", optarg, -1e300, 1e300);
+            h.exact_from = o.mean ? "mean" : "told";
             break;
-        case STEPS: steps = cli_count("--steps", optarg, 1, 64); break;
-        case SUMMARY: summary = true; break;
+        case STEPS: o.steps = cli_count("--steps", optarg, 1, 64); break;
+        case PREFIXES: o.prefixes = optarg; break;
+        case SUMMARY: o.summary = true; break;
         }
 
     cli_input input = cli_inputs(argc, argv, KOKSMA_VALUES);
-    koksma_curve *curve;
-    koksma_error err;
 
-    if (koksma_curve_open(&curve, (unsigned)steps, &err)) cli_fail_as(&err);
-    for (; cli_next_set(&input, &columns); first = false) {
-        const koksma_curve_row *rows;
-        size_t count;
-
-        snprintf(h.about, sizeof h.about, "%s", koksma_reader_about(input.reader));
-        if (!h.told && !koksma_about_number(h.about, "exact", &h.exact))
-            cli_fail(
-                "the input does not say the exact integral: give --exact VALUE");
-        read_curve(curve, &input, columns, h.exact);
-        if (koksma_curve_rows(curve, &rows, &count, &err))
-            cli_fail_input(&input, &err);
-        if (first && !summary) print_header(&h, "set\tN\terror\ttail");
-        if (summary)
-            keep_rows(&all, input.label, rows, count);
-        else
-            print_rows(input.label, rows, count);
-    }
-    if (summary) {
-        print_header(&h, "N\trms\tlower\tupper\tsets");
-        print_summary(&all);
-    }
-    free(all.error);
-    free(all.n);
-    koksma_curve_close(curve);
+    run(&input, &o, h);
     cli_finish(CLI_DONE);
 }

@@ -5,18 +5,38 @@
 
 #include "cli.h"
 #include "fit.h"
+#include "fit_report.h"
 
-enum { FROM = CLI_LONG, TO, LEVEL, MARGIN, EXPLAIN };
+enum {
+    FROM = CLI_LONG,
+    TO,
+    LEVEL,
+    MARGIN,
+    CLAIM,
+    BETA,
+    AREA,
+    JUMP,
+    SIGMA,
+    PATH,
+    EXPLAIN
+};
 
 static const cli_option options[] = {
-    {'x', "column-x", "COLUMN", "name or number of the column of N (default N)"},
-    {'y', "column-y", "COLUMN",
-     "name or number of the error's column (default error)"},
+    {'x', "column-x", "COLUMN",
+     "name or number of the column of N (default N or n)"},
+    {'y', "column-y", "COLUMN", "that of the error (default error, rms or upper)"},
+    {'m', "model", "MODEL", "auto, power, two-terms or two-powers (default auto)"},
     {'d', "dim", "DIM", "dimension, for the theory (default: as the input says)"},
-    {FROM, "from", "N", "smallest N to use (default 8)"},
+    {FROM, "from", "N", "smallest N to use (default: see the manual)"},
     {TO, "to", "N", "largest N to use (default: all)"},
     {LEVEL, "level", "P", "level of the intervals (default 0.95)"},
     {MARGIN, "margin", "M", "what counts as equivalent (default 0.05)"},
+    {CLAIM, "claim", "S", "the exponent claimed (default: the theory's)"},
+    {BETA, "beta", "B", "box dimension of the discontinuity, for the theory"},
+    {AREA, "area", "S", "area of the discontinuity (default: as the input says)"},
+    {JUMP, "jump", "J", "root mean square jump (default: as the input says)"},
+    {SIGMA, "sigma", "V", "standard deviation (default: as the input says)"},
+    {PATH, "path", "K", "fit set K alone, without an interval"},
     {EXPLAIN, "explain", NULL, "write a paragraph for a person instead"},
     {0},
 };
@@ -26,186 +46,155 @@ static const cli_tool tool = {"koksma-fit", "[FILE]...",
                               options};
 
 typedef struct fit_options {
-    const char *x, *y;
-    uint64_t dim; /* 0: as the input says */
+    const char *x, *y; /* NULL: by default */
     koksma_fit_opts fit;
-    double margin;
+    fit_report report; /* what the command line says of it */
+    double claim, beta;
+    uint64_t path;
+    bool interval; /* asked for */
     bool explain;
 } fit_options;
 
-/* The exponents that a fit is held against. */
-typedef struct candidate {
-    const char *name;
-    double exponent;
-} candidate;
-
-enum { CANDIDATES_MOST = 3 };
-
-static size_t list_candidates(candidate *c, uint64_t dim)
+static koksma_fit_model read_model(const char *text)
 {
-    size_t count = 0;
-
-    if (dim > 0)
-        c[count++] = (candidate){"-(D+1)/2D", koksma_fit_theory((size_t)dim)};
-    c[count++] = (candidate){"-1/2", -0.5};
-    if (dim != 1) c[count++] = (candidate){"-1", -1.0};
-    return count;
+    if (strcmp(text, "auto") == 0) return KOKSMA_FIT_AUTO;
+    if (strcmp(text, "power") == 0) return KOKSMA_FIT_POWER;
+    if (strcmp(text, "two-terms") == 0) return KOKSMA_FIT_TWO_TERMS;
+    if (strcmp(text, "two-powers") == 0) return KOKSMA_FIT_TWO_POWERS;
+    cli_usage("-m takes auto, power, two-terms or two-powers, not \"%s\"", text);
 }
 
-static const char *verdict_word(koksma_verdict verdict)
+static double said(const char *about, const char *key)
 {
-    switch (verdict) {
-    case KOKSMA_EQUIVALENT: return "equivalent";
-    case KOKSMA_DIFFERENT: return "different";
-    case KOKSMA_UNDECIDED: return "undecided";
-    case KOKSMA_NO_VERDICT: break;
+    double v;
+
+    return koksma_about_number(about, key, &v) ? v : nan("");
+}
+
+/* What the comments say, where the command line does not. */
+static void complete(fit_report *r, const char *about)
+{
+    double dim = said(about, "dim");
+
+    r->about = about;
+    if (r->dim == 0 && dim >= 1.0 && dim <= 1e9) r->dim = (uint64_t)dim;
+    if (isnan(r->area)) r->area = said(about, "area");
+    if (isnan(r->jump)) r->jump = said(about, "jump");
+    if (isnan(r->sigma)) r->sigma = said(about, "sigma");
+    if (isnan(r->sigma)) r->sigma = sqrt(said(about, "variance"));
+}
+
+/* Errors of replicates from 16 on: below that, chance zeros are many.  Halton's
+ * points begin to be even at the product of the bases, where the window reaches
+ * far beyond it.  Other tables as a whole. */
+static double default_from(const koksma_table *t)
+{
+    double from = 16.0, product = 1.0, largest = 0.0, dim = said(t->about, "dim");
+    char family[16] = "";
+
+    if (!t->labelled) return 0.0;
+    for (size_t i = 0; i < t->rows; i++)
+        largest = fmax(largest, t->x[i]);
+    if (!koksma_about_word(t->about, "points", family, sizeof family) ||
+        (strcmp(family, "halton") != 0 && strcmp(family, "hammersley") != 0))
+        return from;
+    for (double base = 2.0; dim >= 1.0 && product <= largest; base++) {
+        bool prime = true;
+
+        for (double d = 2.0; d * d <= base && prime; d++)
+            prime = fmod(base, d) > 0.0;
+        if (!prime) continue;
+        product *= base;
+        dim--;
     }
-    return "none";
+    return product <= largest / 32.0 ? fmax(from, product) : from;
 }
 
-static void print_row(const char *label, const char *name, double value,
-                      double lower, double upper, double t, const char *verdict)
+/* Keep the rows of one set. */
+static void keep_path(koksma_table *t, uint64_t path)
 {
-    if (label != NULL) printf("%s\t", label);
-    printf("%s\t", name);
-    cli_number(value);
-    putchar('\t');
-    cli_number(lower);
-    putchar('\t');
-    cli_number(upper);
-    putchar('\t');
-    cli_number(t);
-    printf("\t%s\n", verdict);
-}
+    size_t kept = 0;
 
-/* A bend shows when its t exceeds 2.6: about one power law in a hundred. */
-static const char *bend_word(const koksma_fit_result *f)
-{
-    double t = f->curvature.value / f->curvature_se;
-
-    if (isnan(t)) return "none";
-    return fabs(t) <= 2.6 ? "straight" : t > 0.0 ? "flattens" : "steepens";
-}
-
-static void print_table(const koksma_fit_result *f, const fit_options *o,
-                        const char *label, uint64_t dim)
-{
-    candidate c[CANDIDATES_MOST];
-    size_t count = list_candidates(c, dim);
-    koksma_estimate s = f->exponent, q = f->curvature;
-
-    print_row(label, "exponent", s.value, s.lower, s.upper, nan(""), "measured");
-    for (size_t i = 0; i < count; i++) {
-        koksma_comparison v = koksma_fit_compare(f, c[i].exponent, o->margin);
-
-        print_row(label, c[i].name, c[i].exponent, c[i].exponent - o->margin,
-                  c[i].exponent + o->margin, v.t, verdict_word(v.verdict));
-    }
-    print_row(label, "curvature", q.value, q.lower, q.upper,
-              q.value / f->curvature_se, bend_word(f));
-}
-
-static void explain_verdict(const koksma_fit_result *f, const candidate *c,
-                            double margin)
-{
-    switch (koksma_fit_compare(f, c->exponent, margin).verdict) {
-    case KOKSMA_EQUIVALENT:
-        printf("It is equivalent to %s = %.4g: within %g of it, at 5 %%.\n",
-               c->name, c->exponent, margin);
-        break;
-    case KOKSMA_DIFFERENT:
-        printf("It differs from %s = %.4g, which the interval excludes.\n", c->name,
-               c->exponent);
-        break;
-    case KOKSMA_UNDECIDED:
-        printf("It agrees with %s = %.4g, but is too wide to be called equivalent\n"
-               "within %g.\n",
-               c->name, c->exponent, margin);
-        break;
-    case KOKSMA_NO_VERDICT: break;
-    }
-}
-
-static void explain(const koksma_fit_result *f, const fit_options *o,
-                    const char *label, uint64_t dim)
-{
-    candidate c[CANDIDATES_MOST];
-    size_t count = list_candidates(c, dim);
-    const char *bend = bend_word(f);
-
-    if (label != NULL) printf("%s: ", label);
-    printf("From N = %g to %g %s %s goes like %.3g N^s with s = %.4f.\n", f->from,
-           f->to, strcmp(o->y, "error") == 0 ? "the" : "column", o->y, f->constant,
-           f->exponent.value);
-    if (f->sets == 1) {
-        puts("This is one path: its errors hang together, and no honest interval "
-             "can be had\n"
-             "from it.  Replicates give one: koksma-points --scramble digits "
-             "--replicates 32.");
-        return;
-    }
-    printf("The %g %% interval from %zu replicates is [%.4f, %.4f].\n",
-           100.0 * f->exponent.level, f->sets, f->exponent.lower,
-           f->exponent.upper);
-    for (size_t i = 0; i < count; i++)
-        explain_verdict(f, &c[i], o->margin);
-    if (strcmp(bend, "straight") != 0)
-        printf("The line is not straight: it %s towards large N, so that one\n"
-               "exponent does not say all.\n",
-               bend);
+    if (path > t->sets)
+        cli_fail("--path %ju: the table has %zu sets", (uintmax_t)path, t->sets);
+    for (size_t i = 0; i < t->rows; i++)
+        if (t->set[i] == path - 1) {
+            t->x[kept] = t->x[i];
+            t->y[kept] = t->y[i];
+            t->set[kept++] = 0;
+        }
+    t->rows = kept;
+    t->sets = 1;
 }
 
 static void fit_file(const cli_input *input, const fit_options *o, bool header)
 {
-    koksma_table table = {0};
-    koksma_fit_result f;
+    koksma_table t = {0};
+    koksma_fit_opts opts = o->fit;
+    fit_report r = o->report;
     koksma_error err;
-    uint64_t dim = o->dim;
-    double said = 0.0;
-    const char *label =
-        input->several ? input->name != NULL ? input->name : "-" : NULL;
 
-    if (koksma_table_read(&table, input->in, o->x, o->y, &err))
+    if (input->several) r.label = input->name != NULL ? input->name : "-";
+    if (koksma_table_read(&t, input->in, o->x != NULL ? o->x : "N|n",
+                          o->y != NULL ? o->y : "error|rms|upper", &err))
         cli_fail_input(input, &err);
-    if (dim == 0 && koksma_about_number(table.about, "dim", &said) && said >= 1.0 &&
-        said <= 1e9)
-        dim = (uint64_t)said;
-    if (koksma_fit(
-            &f,
-            (koksma_fit_data){table.x, table.y, table.set, table.rows, table.sets},
-            &o->fit, &err))
+    complete(&r, t.about);
+    fit_report_candidates(&r, o->claim, o->beta);
+    if (opts.from == 0.0) opts.from = default_from(&t);
+    if (!koksma_about_number(t.about, "largest", &opts.scale) || opts.scale < 0.0)
+        opts.scale = 0.0;
+    if (o->path > 0) keep_path(&t, o->path);
+    r.path = (size_t)o->path;
+    if (t.sets == 1 && o->interval)
+        cli_fail("one path has no interval: --level and --margin take replicates");
+    if (koksma_fit(&r.fit, (koksma_fit_data){t.x, t.y, t.set, t.rows, t.sets},
+                   &opts, &err))
         cli_fail_input(input, &err);
     if (o->explain) {
-        explain(&f, o, label, dim);
+        fit_report_explain(&r);
     } else {
-        if (header && !cli_quiet())
-            printf("# koksma:%s sets=%zu used=%zu dropped=%zu from=%g to=%g "
-                   "constant=%g\n"
-                   "# %squantity\tvalue\tlower\tupper\tt\tverdict\n",
-                   table.about, f.sets, f.used, f.dropped, f.from, f.to, f.constant,
-                   label != NULL ? "file\t" : "");
-        print_table(&f, o, label, dim);
+        if (header && !cli_quiet()) fit_report_header(&r);
+        fit_report_row(&r);
     }
-    koksma_table_free(&table);
+    koksma_table_free(&t);
 }
 
 int main(int argc, char *argv[])
 {
-    fit_options o = {.x = "N", .y = "error", .margin = 0.05};
+    fit_options o = {.claim = nan(""), .beta = nan("")};
+    fit_report *r = &o.report;
     bool header = true;
     int c;
 
+    *r = (fit_report){
+        .margin = 0.05, .area = nan(""), .jump = nan(""), .sigma = nan("")};
     while ((c = cli_next(&tool, argc, argv)) != -1)
         switch (c) {
         case 'x': o.x = optarg; break;
-        case 'y': o.y = optarg; break;
-        case 'd': o.dim = cli_count("-d", optarg, 1, 1000000000); break;
+        case 'y': o.y = r->column = optarg; break;
+        case 'm': o.fit.model = read_model(optarg); break;
+        case 'd': r->dim = cli_count("-d", optarg, 1, 1000000000); break;
         case FROM: o.fit.from = cli_real("--from", optarg, 1e-300, 1e300); break;
         case TO: o.fit.to = cli_real("--to", optarg, 1e-300, 1e300); break;
-        case LEVEL: o.fit.level = cli_real("--level", optarg, 0.5, 0.999999); break;
-        case MARGIN: o.margin = cli_real("--margin", optarg, 1e-9, 10.0); break;
+        case LEVEL:
+            o.fit.level = cli_real("--level", optarg, 0.5, 0.999999);
+            o.interval = true;
+            break;
+        case MARGIN:
+            r->margin = cli_real("--margin", optarg, 1e-9, 10.0);
+            o.interval = true;
+            break;
+        case CLAIM: o.claim = cli_real("--claim", optarg, -100.0, 100.0); break;
+        case BETA: o.beta = cli_real("--beta", optarg, 0.0, 1e9); break;
+        case AREA: r->area = cli_real("--area", optarg, 0.0, 1e300); break;
+        case JUMP: r->jump = cli_real("--jump", optarg, 0.0, 1e300); break;
+        case SIGMA: r->sigma = cli_real("--sigma", optarg, 1e-300, 1e300); break;
+        case PATH: o.path = cli_count("--path", optarg, 1, SIZE_MAX); break;
         case EXPLAIN: o.explain = true; break;
         }
+    if (!isnan(o.beta) && r->dim > 0 && o.beta > (double)r->dim)
+        cli_usage("--beta %g is above the dimension, %ju", o.beta,
+                  (uintmax_t)r->dim);
 
     cli_input input = cli_inputs(argc, argv, KOKSMA_VALUES);
 

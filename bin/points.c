@@ -73,8 +73,10 @@ static void print_comment(int argc, char *argv[], const koksma_gen_opts *o,
         for (const char *s = argv[i]; *s != '\0'; s++)
             putchar(*s == '\n' ? '?' : *s);
     }
-    printf("\n# koksma: points=%s scramble=%s\n", family,
+    printf("\n# koksma: points=%s scramble=%s", family,
            o->scramble == KOKSMA_SCRAMBLE_DIGITS ? "digits" : "none");
+    if (o->start > 0) printf(" start=%ju", (uintmax_t)o->start);
+    putchar('\n');
 }
 
 /* Options that the family refuses are a misuse of the command line. */

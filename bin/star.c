@@ -7,15 +7,17 @@
 #include "cli.h"
 #include "star.h"
 
-enum { PART = CLI_LONG, TRACE };
+enum { PART = CLI_LONG, PREFIXES, TRACE };
 
 static const cli_option options[] = {
-    {'m', "method", "METHOD", "auto, sweep, tree, dem or search (default auto)"},
+    {'m', "method", "METHOD",
+     "auto, sweep, tree, lines, dem or search (default auto)"},
     {'e', "tolerance", "E", "stop at upper <= (1+E) lower (default 0: exact)"},
     {'t', "time", "SECONDS", "stop then, with the interval so far"},
     {'j', "threads", "THREADS", "how many threads (default 0: one a processor)"},
     {'s', "seed", "SEED", "of the search (default 1)"},
     {PART, "part", "I/M", "do the I-th of M shares of the work"},
+    {PREFIXES, "prefixes", "A:B|N,N,...", "a row for so many first points each"},
     {TRACE, "trace", NULL, "write a row at every improvement of the interval"},
     {'w', "witness", NULL, "write the box that proves the lower bound"},
     {'p', "progress", NULL, "a live line on standard error"},
@@ -33,6 +35,7 @@ static const struct {
     [KOKSMA_STAR_AUTO] = {"auto", NULL},
     [KOKSMA_STAR_SWEEP] = {"sweep", "corners"},
     [KOKSMA_STAR_TREE] = {"tree", "list entries"},
+    [KOKSMA_STAR_LINES] = {"lines", "lines"},
     [KOKSMA_STAR_DEM] = {"dem", "products"},
     [KOKSMA_STAR_SEARCH] = {"search", "points looked at"},
 };
@@ -40,16 +43,20 @@ static const struct {
 typedef struct star_options {
     koksma_star_opts opts;
     cli_watch watch;
-    bool witness, verbose, trace;
+    bool witness, verbose, trace, header;
     const cli_input *input;
+    uint64_t *prefix; /* NULL: only the whole set */
+    size_t prefixes;
     koksma_interval traced; /* what the last row of the trace said */
 } star_options;
 
-static void print_header(const star_options *o)
+/* Once, before the first row: what cannot be measured leaves no header behind. */
+static void print_header(star_options *o)
 {
     const char *input = o->input->several ? "input\t" : "";
 
-    if (cli_quiet()) return;
+    if (cli_quiet() || o->header) return;
+    o->header = true;
     if (o->trace)
         printf("# %sseconds\tsteps\tlower\tupper\n", input);
     else
@@ -76,11 +83,12 @@ static void trace(star_options *o, koksma_interval v, double work)
 {
     if (v.lower == o->traced.lower && v.upper == o->traced.upper) return;
     o->traced = v;
+    print_header(o);
     print_label(o->input);
     printf("%.3f\t%.0f", cli_seconds(&o->watch), work);
     print_interval(v);
     putchar('\n');
-    fflush(stdout);
+    cli_flush();
 }
 
 static int on_progress(void *state, double lower, double upper, double work)
@@ -91,16 +99,16 @@ static int on_progress(void *state, double lower, double upper, double work)
     return cli_watch_progress(&o->watch, lower, upper, work);
 }
 
-static void print_row(const star_options *o, const koksma_set *set,
-                      const koksma_star_result *r)
+static void print_row(star_options *o, koksma_points p, const koksma_star_result *r)
 {
+    print_header(o);
     print_label(o->input);
-    printf("%zu\t%zu", set->n, set->dim);
+    printf("%zu\t%zu", p.n, p.dim);
     print_interval(r->value);
     if (o->witness) {
         printf("\t%s\t%zu", r->witness.closed ? "closed" : "open",
                r->witness.inside);
-        for (size_t k = 0; k < set->dim; k++) {
+        for (size_t k = 0; k < p.dim; k++) {
             putchar('\t');
             cli_number(r->witness.corner[k]);
         }
@@ -112,7 +120,7 @@ static koksma_star_method read_method(const char *text)
 {
     for (int m = KOKSMA_STAR_AUTO; m <= KOKSMA_STAR_SEARCH; m++)
         if (strcmp(text, methods[m].name) == 0) return (koksma_star_method)m;
-    cli_usage("-m takes auto, sweep, tree, dem or search, not \"%s\"", text);
+    cli_usage("-m takes auto, sweep, tree, lines, dem or search, not \"%s\"", text);
 }
 
 /* I/M, as in 2/8. */
@@ -129,29 +137,39 @@ static void read_part(star_options *o, const char *text)
     o->opts.part = cli_count("--part", first, 1, o->opts.parts);
 }
 
-/* Returns whether the set was finished. */
-static bool measure(const koksma_set *set, star_options *o)
+static const char *reason(const star_options *o, const koksma_star_result *r,
+                          koksma_points p)
 {
-    koksma_star_result r = {.witness.corner = malloc(set->dim * sizeof(double))};
+    if (o->opts.method != KOKSMA_STAR_AUTO) return "as told";
+    if (p.dim == 1) return "one coordinate";
+    if (r->method == KOKSMA_STAR_SWEEP) return "few corners";
+    return p.dim <= 3 ? "two or three coordinates" : "more than three coordinates";
+}
+
+/* Returns whether it was finished. */
+static bool measure(koksma_points p, void *state)
+{
+    star_options *o = state;
+    koksma_star_result r = {.witness.corner = malloc(p.dim * sizeof(double))};
     koksma_error err;
     koksma_status status;
 
     if (r.witness.corner == NULL) cli_fail("not enough memory for a witness");
     o->traced = (koksma_interval){-1.0, 2.0};
     cli_watch_start(&o->watch);
-    status = koksma_star(&r, koksma_set_view(set), &o->opts, &err);
+    status = koksma_star(&r, p, &o->opts, &err);
     cli_watch_stop(&o->watch);
     if (status != KOKSMA_OK && status != KOKSMA_STOPPED)
         cli_fail_input(o->input, &err);
     if (o->trace)
         trace(o, r.value, r.work);
     else
-        print_row(o, set, &r);
+        print_row(o, p, &r);
     if (status == KOKSMA_STOPPED) cli_note("%s", err.text);
     if (o->verbose)
-        cli_note("%zu points, %zu coordinates: %s, %.3g %s, %.2f s", set->n,
-                 set->dim, methods[r.method].name, r.work, methods[r.method].steps,
-                 cli_seconds(&o->watch));
+        cli_note("%zu points, %zu coordinates: %s (%s), %.3g %s, %.2f s", p.n,
+                 p.dim, methods[r.method].name, reason(o, &r, p), r.work,
+                 methods[r.method].steps, cli_seconds(&o->watch));
     free(r.witness.corner);
     return status == KOKSMA_OK;
 }
@@ -160,7 +178,7 @@ int main(int argc, char *argv[])
 {
     star_options o = {.opts = {.seed = 1, .progress = on_progress}};
     koksma_set set = {0};
-    bool header = false, finished = true;
+    bool finished = true;
     int c;
 
     while ((c = cli_next(&tool, argc, argv)) != -1)
@@ -177,6 +195,9 @@ int main(int argc, char *argv[])
             break;
         case 'j': o.opts.threads = cli_count("-j", optarg, 0, 65536); break;
         case PART: read_part(&o, optarg); break;
+        case PREFIXES:
+            o.prefixes = cli_prefixes(&o.prefix, "--prefixes", optarg, 1);
+            break;
         case TRACE: o.trace = o.opts.anytime = true; break;
         case 's': o.opts.seed = cli_count("-s", optarg, 0, UINT64_MAX); break;
         case 'w': o.witness = true; break;
@@ -186,18 +207,16 @@ int main(int argc, char *argv[])
 
     if (o.trace && o.witness) cli_usage("--trace has no room for a witness");
     if (o.opts.parts > 1 && o.opts.method != KOKSMA_STAR_AUTO &&
-        o.opts.method != KOKSMA_STAR_TREE)
-        cli_usage("--part takes the tree: the others cannot be cut");
+        o.opts.method != KOKSMA_STAR_TREE && o.opts.method != KOKSMA_STAR_LINES)
+        cli_usage("--part takes the tree or the lines: the others cannot be cut");
 
     cli_input input = cli_inputs(argc, argv, KOKSMA_POINTS);
 
     o.input = &input;
     o.opts.state = &o;
-    while (finished && cli_read_set(&input, &set)) {
-        if (!header) print_header(&o);
-        header = true;
-        finished = measure(&set, &o);
-    }
+    while (finished && cli_read_set(&input, &set))
+        finished = cli_each_prefix(&input, &set, o.prefix, o.prefixes, measure, &o);
     koksma_set_free(&set);
+    free(o.prefix);
     cli_finish(finished ? CLI_DONE : CLI_STOPPED);
 }

@@ -13,21 +13,37 @@
  *     E(N)  =  max over n >= N of |e(n)|              n up to the last value
  *
  * at N = 1, 2, 3, 4, 6, 8, 11, 16, ...: 2^(i/steps) rounded, `steps` to the
- * octave, and at the last value.  E is the "maximum error after N samples" of
- * [Szirmay-Kalos, Purgathofer 1998]; near the last value it is too small, since
- * it cannot see further. */
+ * octave, and at the last value; or at N's that are given.  E is the "maximum error
+ * after N samples" of [Szirmay-Kalos, Purgathofer 1998]; near the last value it is
+ * too small, since it cannot see further. */
 
 typedef struct koksma_curve_row {
     uint64_t n;
     double error; /* e(n), signed */
     double tail;  /* E(n) */
+    double least,
+        most; /* of all e(m), m >= n; tail is the larger of -least, most */
 } koksma_curve_row;
+
+/* What is known of all values so far. */
+typedef struct koksma_curve_total {
+    uint64_t n;
+    double error;   /* e(n); 0 without values */
+    double square;  /* 1/n sum (f_i - I)^2: for random points, the variance */
+    double largest; /* |f_i| */
+} koksma_curve_total;
 
 typedef struct koksma_curve koksma_curve;
 
 /* Returns: KOKSMA_OK; KOKSMA_EINVAL: steps not in 1..64; KOKSMA_ENOMEM */
 koksma_status koksma_curve_open(koksma_curve **out, unsigned steps,
                                 koksma_error *err);
+/* The same with rows at the `count` given N alone, as far as the values reach.
+ *
+ * Returns: KOKSMA_OK; KOKSMA_EINVAL: no N, an N of 0, or one not above that before
+ *          it; KOKSMA_ENOMEM */
+koksma_status koksma_curve_open_at(koksma_curve **out, const uint64_t *n,
+                                   size_t count, koksma_error *err);
 void koksma_curve_close(koksma_curve *c); /* c may be NULL */
 
 /* Begin a curve; I is exact. */
@@ -45,6 +61,11 @@ void koksma_curve_add(koksma_curve *c, const double *f, size_t stride,
  * Returns: KOKSMA_OK; KOKSMA_EDOMAIN: the sum left the range of a double */
 koksma_status koksma_curve_rows(koksma_curve *c, const koksma_curve_row **rows,
                                 size_t *count, koksma_error *err);
+
+koksma_curve_total koksma_curve_so_far(const koksma_curve *c);
+
+/* The same row had I been greater by `shift`. */
+koksma_curve_row koksma_curve_shifted(koksma_curve_row row, double shift);
 
 /* The root of the mean square of `count` errors, one a replicate, with a
  * delete-one jackknife interval of its logarithm (Student's t, count - 1 degrees

@@ -86,7 +86,8 @@ typedef struct koksma_table {
 } koksma_table;
 
 /* Read a table: rows of fields as above, under a `#` line that names them.
- * x and y are names, or numbers from 1.  Fields of other columns may be any
+ * x and y are numbers from 1, or names; of several names, apart by |, the first
+ * that there is.  Fields of other columns may be any
  * words.  A blank line changes nothing.
  *
  * Returns: as koksma_reader_next; KOKSMA_EINVAL when there is no such column */

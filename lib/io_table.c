@@ -19,21 +19,35 @@ typedef struct labels {
 } labels;
 
 /* The column called name in the comment that names them, or 0. */
-static size_t column_named(const char *names, const char *name)
+static size_t column_named(const char *names, const char *name, size_t length)
 {
     size_t column = 1;
     bool comma;
 
-    if (names == NULL) return 0;
     for (const char *s = ki_skip_blanks(names); *s != '\0'; column++) {
         const char *end = ki_field_end(s);
 
-        if ((size_t)(end - s) == strlen(name) &&
-            strncmp(s, name, strlen(name)) == 0)
+        if ((size_t)(end - s) == length && strncmp(s, name, length) == 0)
             return column;
         s = ki_next_field(end, &comma);
     }
     return 0;
+}
+
+/* The same for the first of several names, apart by |, that there is. */
+static size_t column_of_names(const char *names, const char *wanted)
+{
+    size_t column = 0;
+
+    if (names == NULL) return 0;
+    while (column == 0) {
+        size_t length = strcspn(wanted, "|");
+
+        column = column_named(names, wanted, length);
+        if (wanted[length] == '\0') break;
+        wanted += length + 1;
+    }
+    return column;
 }
 
 static koksma_status find_column(size_t *column, const char *names,
@@ -44,7 +58,7 @@ static koksma_status find_column(size_t *column, const char *names,
 
     *column = *wanted >= '1' && *wanted <= '9' && *end == '\0'
                   ? number
-                  : column_named(names, wanted);
+                  : column_of_names(names, wanted);
     if (*column > 0) return KOKSMA_OK;
     return ki_fail(err, KOKSMA_EINVAL, 0,
                    names == NULL
@@ -136,7 +150,7 @@ static koksma_status read_rows(koksma_table *t, ki_lines *lines, labels *l,
             status = find_column(&at.x, lines->names, x, err);
             if (status == KOKSMA_OK)
                 status = find_column(&at.y, lines->names, y, err);
-            at.set = column_named(lines->names, "set");
+            at.set = column_of_names(lines->names, "set");
         }
         if (status == KOKSMA_OK) status = add_row(t, lines, at, l, err);
         if (status != KOKSMA_OK) return status;

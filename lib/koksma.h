@@ -8,6 +8,7 @@
 #include <koksma/gen.h>
 #include <koksma/integrand.h>
 #include <koksma/io.h>
+#include <koksma/l2.h>
 #include <koksma/num.h>
 #include <koksma/points.h>
 #include <koksma/rng.h>

@@ -4,7 +4,8 @@ noinst_LTLIBRARIES = %D%/libcore.la
 %C%_libcore_la_SOURCES = \
   %D%/curve.c %D%/curve.h \
   %D%/error.c %D%/error.h \
-  %D%/fit.c %D%/fit.h \
+  %D%/fit.c %D%/fit.h %D%/fit_kernels.h %D%/fit_grid.c %D%/fit_judge.c \
+  %D%/fit_line.c %D%/fit_mixture.c \
   %D%/gen.c %D%/gen.h %D%/gen_kernels.h %D%/gen_halton.c %D%/gen_plain.c \
   %D%/gen_radical.c %D%/gen_sobol.c \
   %D%/integrand.c %D%/integrand.h %D%/integrand_kernels.h \
@@ -13,7 +14,10 @@ noinst_LTLIBRARIES = %D%/libcore.la
   %D%/integrand_sum.c %D%/integrand_wave.c \
   %D%/io.c %D%/io.h %D%/io_kernels.h %D%/io_about.c %D%/io_lines.c %D%/io_npy.c \
   %D%/io_number.c %D%/io_table.c %D%/io_text.c %D%/io_write.c \
-  %D%/num.c %D%/num.h %D%/num_kernels.h %D%/num_student.c \
+  %D%/l2.c %D%/l2.h %D%/l2_kernels.h %D%/l2_cross.c %D%/l2_divide.c \
+  %D%/l2_divide_kernels.h %D%/l2_kinds.c %D%/l2_linear.c %D%/l2_merge.c \
+  %D%/l2_number.c %D%/l2_pairs.c %D%/l2_sort.c %D%/l2_tile.c \
+  %D%/num.c %D%/num.h %D%/num_kernels.h %D%/num_student.c %D%/num_twice.h \
   %D%/part.c %D%/part.h \
   %D%/points.c %D%/points.h \
   %D%/rng.c %D%/rng.h \
@@ -22,8 +26,12 @@ noinst_LTLIBRARIES = %D%/libcore.la
   %D%/star_best.c %D%/star_bound.c %D%/star_bound_closed.c \
   %D%/star_bound_open.c %D%/star_cell.c %D%/star_climb.c \
   %D%/star_climb_kernels.h %D%/star_dem.c %D%/star_dem_cell.c \
-  %D%/star_dem_kernels.h %D%/star_dive.c %D%/star_ranks.c %D%/star_search.c \
-  %D%/star_tree.c %D%/star_tree_kernels.h
+  %D%/star_dem_kernels.h %D%/star_dive.c \
+  %D%/star_lines.c %D%/star_lines_cell.c %D%/star_lines_climb.c \
+  %D%/star_lines_finds.c %D%/star_lines_flow.c %D%/star_lines_grid.c %D%/star_lines_kernels.h \
+  %D%/star_lines_leaf.c %D%/star_lines_tasks.c %D%/star_lines_thin.c \
+  %D%/star_ranks.c %D%/star_run.c %D%/star_run_kernels.h %D%/star_search.c \
+  %D%/star_sort.c %D%/star_tree.c %D%/star_tree_kernels.h
 %C%_libcore_la_CPPFLAGS = $(AM_CPPFLAGS) -I$(top_builddir)/%D%
 
 # Sobol's direction numbers, from the published table to C.
@@ -44,7 +52,7 @@ lib_LTLIBRARIES = %D%/libkoksma.la
 include_HEADERS = %D%/koksma.h
 koksmaincludedir = $(includedir)/koksma
 koksmainclude_HEADERS = \
-  %D%/curve.h %D%/fit.h %D%/gen.h %D%/integrand.h %D%/io.h %D%/num.h \
+  %D%/curve.h %D%/fit.h %D%/gen.h %D%/integrand.h %D%/io.h %D%/l2.h %D%/num.h \
   %D%/points.h %D%/rng.h %D%/scene.h %D%/star.h
 
 pkgconfig_DATA = %D%/koksma.pc

@@ -29,20 +29,22 @@ koksma_interval koksma_box_local(const koksma_box *box, koksma_points p)
 }
 
 static ki_star_kernel *const kernels[] = {
-    [KOKSMA_STAR_SWEEP] = ki_star_sweep,
-    [KOKSMA_STAR_TREE] = ki_star_tree,
-    [KOKSMA_STAR_DEM] = ki_star_dem,
+    [KOKSMA_STAR_SWEEP] = ki_star_sweep,   [KOKSMA_STAR_TREE] = ki_star_tree,
+    [KOKSMA_STAR_LINES] = ki_star_lines,   [KOKSMA_STAR_DEM] = ki_star_dem,
     [KOKSMA_STAR_SEARCH] = ki_star_search,
 };
 
-/* The sweep is the plainer one, and the faster one for few corners: measured. */
+/* The sweep is the plainest one, and the fastest for few corners: measured. */
 static koksma_star_method choose(const koksma_star_opts *opts, koksma_points p)
 {
     double corners = pow((double)p.n, (double)p.dim);
+    bool lines = p.dim == 2 || p.dim == 3;
 
     if (opts->method != KOKSMA_STAR_AUTO) return opts->method;
-    if (opts->parts > 1) return KOKSMA_STAR_TREE;
-    return p.dim == 1 || corners <= 0x1p20 ? KOKSMA_STAR_SWEEP : KOKSMA_STAR_TREE;
+    if (opts->parts > 1) return lines ? KOKSMA_STAR_LINES : KOKSMA_STAR_TREE;
+    if (p.dim == 1 || corners <= (lines ? 0x1p16 : 0x1p20))
+        return KOKSMA_STAR_SWEEP;
+    return lines ? KOKSMA_STAR_LINES : KOKSMA_STAR_TREE;
 }
 
 static koksma_status check_opts(const koksma_star_opts *opts, koksma_points p,
@@ -61,10 +63,14 @@ static koksma_status check_opts(const koksma_star_opts *opts, koksma_points p,
         return ki_fail(err, KOKSMA_EINVAL, 0, "there is no part %zu of %zu",
                        opts->part, opts->parts);
     if (opts->parts > 1 && opts->method != KOKSMA_STAR_AUTO &&
-        opts->method != KOKSMA_STAR_TREE)
-        return ki_fail(err, KOKSMA_EINVAL, 0, "the tree alone is cut into parts");
+        opts->method != KOKSMA_STAR_TREE && opts->method != KOKSMA_STAR_LINES)
+        return ki_fail(err, KOKSMA_EINVAL, 0,
+                       "only the tree and the lines are cut into parts");
     if (p.n >= (size_t)1 << 31)
         return ki_fail(err, KOKSMA_EINVAL, 0, "%zu points: 2^31 are too many", p.n);
+    if (opts->method == KOKSMA_STAR_LINES && p.dim != 2 && p.dim != 3)
+        return ki_fail(err, KOKSMA_EINVAL, 0,
+                       "filtered lines take 2 or 3 coordinates, not %zu", p.dim);
     return KOKSMA_OK;
 }
 

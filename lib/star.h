@@ -29,10 +29,12 @@ typedef struct koksma_box {
 
 /* All find the same value and witness, to the last bit. */
 typedef enum koksma_star_method {
-    KOKSMA_STAR_AUTO,  /* the sweep for dim 1 and up to 2^20 corners, else the tree
-                        */
+    KOKSMA_STAR_AUTO, /* the sweep for dim 1 and for few corners (2^16 for dim 2 and
+                       * 3, else 2^20), or else lines for dim 2 and 3 and the tree
+                       * above */
     KOKSMA_STAR_SWEEP, /* visit every corner that a point can hold up */
     KOKSMA_STAR_TREE,  /* branch and bound */
+    KOKSMA_STAR_LINES, /* divide and conquer with filtered lines, dim 2 and 3 */
     KOKSMA_STAR_DEM,   /* Dobkin, Eppstein and Mitchell: a second opinion */
     KOKSMA_STAR_SEARCH /* a heuristic: good boxes, until none better is found for
                         * long; no upper bound but 1 */
@@ -43,16 +45,16 @@ typedef struct koksma_star_result {
     koksma_box witness;        /* its local discrepancy is at least value.lower */
     koksma_star_method method; /* which one ran */
     double work; /* its steps: corners for the sweep, entries of lists of
-                  * points for the tree, products of sides for dem, points
-                  * looked at for the search */
+                  * points for the tree, lines of cells for lines, products of
+                  * sides for dem, points looked at for the search */
 } koksma_star_result;
 
 typedef struct koksma_star_opts {
     koksma_star_method method;
-    /* The tree stops at upper <= (1 + tolerance) lower; 0: exact. */
+    /* The tree and the lines stop at upper <= (1 + tolerance) lower; 0: exact. */
     double tolerance;
-    /* The tree works towards that in stages, which takes two to three times as long
-     * in all, but has an upper bound when it is stopped. */
+    /* They work towards that in stages, which takes two to three times as long in
+     * all, but has an upper bound when it is stopped. */
     bool anytime;
     size_t threads;     /* of the tree; 0: one a processor */
     size_t part, parts; /* 1 <= part <= parts: the tree does this share of the work,
@@ -90,18 +92,22 @@ typedef struct koksma_star_opts {
  * Returns: KOKSMA_OK; KOKSMA_STOPPED when progress said so or the work ran out:
  *          value is then true, but wider; KOKSMA_EINVAL or KOKSMA_EDOMAIN as
  *          koksma_points_check, and for options out of range; KOKSMA_ENOMEM
- * Cost:    sweep: n log n for dim 1, n^2 for dim 2, below n^dim above; memory
- *          n*dim.
- *          tree: no useful bound; measured on Halton points about n^1.5 for dim 3,
- *          n^2 for dim 4 and n^2.7 for dim 8; memory n*dim times the depth of the
- *          search at worst, for each thread.
- *          dem: n^(1+dim/2) for a given dim >= 2, and more only where many boxes
- *          tie for the best; memory n*dim.
- *          search: measured, 2 n*dim^2 microseconds; memory n*dim
+ * Cost:    as follows; memory grows like n*dim
+ *
+ *     sweep   n log n for dim 1, n^2 for dim 2, below n^dim above
+ *     tree    no useful bound; measured on Halton points about n^1.5 for dim 3, n^2
+ *             for dim 4 and n^2.7 for dim 8; memory times the depth of the search
+ *             at worst, for each thread
+ *     lines   n^dim at worst; measured about n log n for dim 2, where 10^6 points
+ *             take a second or less, and n^1.7 for dim 3; 200 n bytes
+ *     dem     n^(1+dim/2) for a given dim >= 2, and more only where many boxes tie
+ *             for the best
+ *     search  measured, 2 n*dim^2 microseconds
+ *
  * Source:  critical corners: [Niederreiter 1992, thm 2.6] for dim 1, [Bundschuh,
- *          Zhu 1993] above; dem: [Dobkin, Eppstein, Mitchell 1996]; the tree is
- *          Koksma's own: lib/star_bound.c proves it; so is the search:
- *          lib/star_climb.c */
+ *          Zhu 1993] above; dem: [Dobkin, Eppstein, Mitchell 1996]; the tree, the
+ *          lines and the search are Koksma's own, proven in lib/star_bound.c and
+ *          lib/star_lines_thin.c */
 koksma_status koksma_star(koksma_star_result *out, koksma_points p,
                           const koksma_star_opts *opts, koksma_error *err);
 

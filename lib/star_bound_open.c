@@ -53,7 +53,7 @@ static void weigh(ki_worker *w, const ki_cell *c)
     for (size_t i = 0; i < c->lives; i++) {
         ki_standing *s = &w->standing[w->live[c->live + i]];
 
-        s->choice = (s->opens == 1) | (s->reach < 1.0f) ? WHOLE : 0;
+        s->choice = ((s->opens == 1) | (s->reach < 1.0f)) ? WHOLE : 0;
     }
 }
 

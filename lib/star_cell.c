@@ -244,9 +244,10 @@ ki_cell *ki_cell_enter(ki_worker *w, size_t depth)
 {
     size_t dim = w->ranks->dim;
     ki_cell *c = cell_at(w, depth);
-    const ki_cell *from = c - 1;
+    const ki_cell *from;
 
     if (c == NULL) return NULL;
+    from = c - 1;
     memcpy(c->low, from->low, dim * sizeof *c->low);
     memcpy(c->high, from->high, dim * sizeof *c->high);
     memcpy(c->begin, from->begin, dim * sizeof *c->begin);
@@ -311,12 +312,11 @@ static bool enter_root(ki_worker *w)
     return true;
 }
 
-koksma_status ki_worker_begin(ki_worker *w, ki_tree *tree, bool closed)
+koksma_status ki_worker_begin(ki_worker *w, ki_run *run, const ki_ranks *ranks)
 {
-    const ki_ranks *ranks = &tree->ranks[closed];
     size_t n = ranks->n, dim = ranks->dim;
 
-    *w = (ki_worker){.tree = tree, .ranks = ranks};
+    *w = (ki_worker){.run = run, .ranks = ranks};
     w->standing = calloc(n, sizeof *w->standing);
     w->new_low = ki_alloc(dim, sizeof *w->new_low);
     w->new_high = ki_alloc(dim, sizeof *w->new_high);

@@ -6,19 +6,6 @@
 
 /* Depth first, the upper part of a cell first: large boxes hold the extremes. */
 
-static double target(const ki_worker *w)
-{
-    return w->tree->factor * ki_team_peak(w->tree->team);
-}
-
-static void give_up(ki_worker *w)
-{
-    ki_team_lock(w->tree->team);
-    w->tree->no_memory = true;
-    ki_team_unlock(w->tree->team);
-    ki_team_stop(w->tree->team);
-}
-
 /* Whether one corner is left; it is then offered. */
 static bool is_corner(ki_worker *w, const ki_cell *c)
 {
@@ -28,7 +15,7 @@ static bool is_corner(ki_worker *w, const ki_cell *c)
         if (c->low[k] != c->high[k]) return false;
     for (size_t k = 0; k < r->dim; k++)
         w->corner[k] = r->axis[k].value[c->low[k]];
-    ki_tree_offer(w->tree, w->corner, c->inside, r->closed);
+    ki_run_offer(w->run, w->corner, c->inside, r->closed);
     return true;
 }
 
@@ -74,7 +61,7 @@ static bool settle(ki_worker *w, ki_cell *c)
     bool empty = false;
 
     if (!ki_cell_settle(w, c, &empty)) {
-        give_up(w);
+        ki_run_give_up(w->run);
         return false;
     }
     return !empty && !is_corner(w, c);
@@ -89,10 +76,10 @@ static bool examine(ki_worker *w, ki_cell *c)
     if (!settle(w, c)) return false;
     do {
         before = entries(w, c);
-        c->bound = ki_cell_bound(w, c, target(w));
-        if (c->bound < target(w)) return false;
+        c->bound = ki_cell_bound(w, c, ki_run_target(w->run));
+        if (c->bound < ki_run_target(w->run)) return false;
         if (c->bound == HUGE_VAL || !ki_cell_narrow(w, c)) {
-            give_up(w);
+            ki_run_give_up(w->run);
             return false;
         }
         if (!settle(w, c)) return false;
@@ -101,21 +88,10 @@ static bool examine(ki_worker *w, ki_cell *c)
     return true;
 }
 
-static bool told_to_stop(ki_worker *w)
-{
-    if (w->work >= 0x1p18) {
-        ki_team_lock(w->tree->team);
-        ki_tree_report(w->tree, w->work);
-        ki_team_unlock(w->tree->team);
-        w->work = 0.0;
-    }
-    return ki_team_stopped(w->tree->team);
-}
-
 /* Whether both parts of a cell were visited, or what is left does not matter. */
 static bool is_done(const ki_worker *w, const ki_cell *c)
 {
-    return c->parts == 2 || c->bound < target(w);
+    return c->parts == 2 || c->bound < ki_run_target(w->run);
 }
 
 /* Enter, below cell `depth` of the path, the cell of new_low and new_high. */
@@ -124,7 +100,7 @@ static bool enter(ki_worker *w, size_t depth)
     ki_cell *c = ki_cell_enter(w, depth + 1);
 
     if (c != NULL && ki_cell_narrow(w, c)) return true;
-    give_up(w);
+    ki_run_give_up(w->run);
     return false;
 }
 
@@ -150,6 +126,7 @@ static bool add_task(ki_tasks *tasks, const ki_worker *w, const ki_cell *c)
     if (ki_grow((void **)&tasks->number, &tasks->room, (tasks->count + 1) * size,
                 sizeof *tasks->number) != 0)
         return false;
+    tasks->most = fmax(tasks->most, c->bound);
     to = tasks->number + tasks->count++ * size;
     *to++ = w->ranks->closed;
     memcpy(to, c->low, dim * sizeof *to);
@@ -164,7 +141,7 @@ static bool open_up(ki_worker *w, size_t depth, double most, ki_tasks *tasks)
 
     if (!examine(w, c)) return false;
     if (tasks == NULL || c->bound > most) return true;
-    if (!add_task(tasks, w, c)) give_up(w);
+    if (!add_task(tasks, w, c)) ki_run_give_up(w->run);
     return false;
 }
 
@@ -184,5 +161,6 @@ void ki_dive(ki_worker *w, const uint32_t *low, const uint32_t *high, double mos
             ki_cell_leave(w, &w->cell[depth + 1]);
         while (depth > 0 && is_done(w, &w->cell[depth]))
             ki_cell_leave(w, &w->cell[depth--]);
-    } while (depth > 0 && !told_to_stop(w) && enter_part(w, depth));
+    } while (depth > 0 && !ki_run_told_to_stop(w->run, &w->work) &&
+             enter_part(w, depth));
 }

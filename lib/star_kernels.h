@@ -1,6 +1,8 @@
 #ifndef KI_STAR_KERNELS_H
 #define KI_STAR_KERNELS_H
 
+#include <stdint.h>
+
 #include "num_kernels.h"
 #include "star.h"
 
@@ -46,5 +48,20 @@ ki_star_kernel ki_star_sweep; /* visit every critical corner */
 ki_star_kernel ki_star_tree;  /* branch and bound; n < 2^31 */
 ki_star_kernel ki_star_dem; /* a partition, and dynamic programming in its cells */
 ki_star_kernel ki_star_search; /* the heuristic alone; n < 2^31 */
+
+/* Divide and conquer with filtered lines, for dim 2 and 3; else the same. */
+koksma_status ki_star_lines(ki_best *b, const koksma_star_opts *opts, double *upper,
+                            double *work, bool *stopped);
+
+/* A coordinate of point i. */
+typedef struct ki_keyed {
+    double x;
+    uint32_t i;
+} ki_keyed;
+
+/* Sort coordinate k of all points; n < 2^31.  a and b have room for n each, and the
+ * one returned holds them in order, tied ones in the order of the points.  -0 has
+ * become 0. */
+ki_keyed *ki_sort_axis(koksma_points p, size_t k, ki_keyed *a, ki_keyed *b);
 
 #endif

@@ -4,69 +4,51 @@
 #include "error.h"
 #include "star_tree_kernels.h"
 
-typedef struct keyed {
-    double x;
-    uint32_t i;
-} keyed;
-
-static int by_x(const void *a, const void *b)
-{
-    const keyed *p = a, *q = b;
-
-    if (p->x != q->x) return p->x < q->x ? -1 : 1;
-    return (p->i > q->i) - (p->i < q->i);
-}
-
-typedef struct placed {
-    uint64_t place;
-    size_t i;
-} placed;
-
-static int by_place(const void *a, const void *b)
-{
-    const placed *p = a, *q = b;
-
-    if (p->place != q->place) return p->place < q->place ? -1 : 1;
-    return (p->i > q->i) - (p->i < q->i);
-}
-
-/* The leading bits of the coordinates, interleaved [Morton 1966]: points near each
- * other mostly get places near each other. */
-static uint64_t morton_place(const double *x, size_t dim)
+/* The leading bits of the coordinates, interleaved [Morton 1966], as a number below
+ * 1: points near each other mostly get places near each other. */
+static double morton_place(const double *x, size_t dim)
 {
     uint64_t place = 0;
-    size_t used = 0;
+    int used = 0;
 
-    for (int bit = 1; bit <= 52 && used < 64; bit++)
-        for (size_t k = 0; k < dim && used < 64; k++, used++)
+    for (int bit = 1; used < 52; bit++)
+        for (size_t k = 0; k < dim && used < 52; k++, used++)
             place = place << 1 | ((uint64_t)ldexp(x[k], bit) & 1);
-    return place;
+    return (double)place * 0x1p-52;
 }
+
+/* What the ranks are made with: room for n each. */
+typedef struct bench {
+    double *place;
+    uint32_t *number; /* of each point */
+    ki_keyed *a, *b;
+} bench;
 
 /* Number the points in Morton order, so that those which a small cell holds stand
- * together in memory: number i is the point original[i] of p. */
-static void number_points(placed *original, koksma_points p)
+ * together in memory. */
+static void number_points(bench *w, koksma_points p)
 {
+    const ki_keyed *sorted;
+
     for (size_t i = 0; i < p.n; i++)
-        original[i] = (placed){morton_place(p.x + i * p.dim, p.dim), i};
-    qsort(original, p.n, sizeof *original, by_place);
+        w->place[i] = morton_place(p.x + i * p.dim, p.dim);
+    sorted = ki_sort_axis((koksma_points){w->place, p.n, 1}, 0, w->a, w->b);
+    for (size_t i = 0; i < p.n; i++)
+        w->number[sorted[i].i] = (uint32_t)i;
 }
 
-/* Rank the coordinates along axis k; sorted has room for n. */
-static void rank_axis(ki_ranks *r, koksma_points p, size_t k,
-                      const placed *original, keyed *sorted)
+/* Rank the coordinates along axis k. */
+static void rank_axis(ki_ranks *r, koksma_points p, size_t k, bench *w)
 {
+    const ki_keyed *sorted = ki_sort_axis(p, k, w->a, w->b);
     ki_axis *axis = &r->axis[k];
     uint32_t top = 0;
 
-    for (size_t i = 0; i < p.n; i++)
-        sorted[i] = (keyed){p.x[original[i].i * p.dim + k], (uint32_t)i};
-    qsort(sorted, p.n, sizeof *sorted, by_x);
     axis->value[0] = 0.0;
     for (size_t j = 0; j < p.n; j++) {
         if (sorted[j].x != axis->value[top]) axis->value[++top] = sorted[j].x;
-        r->rank[k * p.n + sorted[j].i] = top;
-        r->order[k * p.n + j] = sorted[j].i;
+        r->order[k * p.n + j] = w->number[sorted[j].i];
+        r->rank[k * p.n + r->order[k * p.n + j]] = top;
     }
     if (!r->closed && axis->value[top] < 1.0) axis->value[++top] = 1.0;
     for (uint32_t j = 1; j <= top; j++)
@@ -75,12 +57,30 @@ static void rank_axis(ki_ranks *r, koksma_points p, size_t k,
     axis->top = top;
 }
 
+/* An axis takes values and logarithms of n + 2 ranks, ranks and an order. */
+static void fill(ki_ranks *r, koksma_points p, bench *w)
+{
+    double *value;
+
+    r->axis = r->memory;
+    value = (double *)(r->axis + p.dim);
+    r->rank = (uint32_t *)(value + p.dim * 2 * (p.n + 2));
+    r->order = r->rank + p.dim * p.n;
+    number_points(w, p);
+    for (size_t k = 0; k < p.dim; k++, value += 2 * (p.n + 2)) {
+        r->axis[k].value = value;
+        r->axis[k].log = value + p.n + 2;
+        rank_axis(r, p, k, w);
+    }
+}
+
 koksma_status ki_ranks_make(ki_ranks *out, koksma_points p, bool closed)
 {
-    /* An axis takes values and logarithms of n + 2 ranks, ranks and an order. */
     size_t doubles = 2 * (p.n + 2), words = 2 * p.n, bytes;
-    keyed *sorted = ki_alloc(p.n, sizeof *sorted);
-    placed *original = ki_alloc(p.n, sizeof *original);
+    bench w = {.place = ki_alloc(p.n, sizeof *w.place),
+               .number = ki_alloc(p.n, sizeof *w.number),
+               .a = ki_alloc(p.n, 2 * sizeof *w.a)};
+    koksma_status status = KOKSMA_ENOMEM;
     ki_ranks r = {
         .n = p.n, .dim = p.dim, .closed = closed, .shift = closed ? 0 : 1};
 
@@ -89,26 +89,18 @@ koksma_status ki_ranks_make(ki_ranks *out, koksma_points p, bool closed)
                                     words * sizeof(uint32_t) + sizeof(ki_axis),
                                 &bytes))
         r.memory = ki_alloc(1, bytes);
-    if (sorted == NULL || original == NULL || r.memory == NULL) {
-        free(sorted);
-        free(original);
+    if (w.place != NULL && w.number != NULL && w.a != NULL && r.memory != NULL) {
+        w.b = w.a + p.n;
+        fill(&r, p, &w);
+        *out = r;
+        status = KOKSMA_OK;
+    } else {
         free(r.memory);
-        return KOKSMA_ENOMEM;
     }
-    r.axis = r.memory;
-    double *value = (double *)(r.axis + p.dim);
-    r.rank = (uint32_t *)(value + p.dim * doubles);
-    r.order = r.rank + p.dim * p.n;
-    number_points(original, p);
-    for (size_t k = 0; k < p.dim; k++) {
-        r.axis[k].value = value + k * doubles;
-        r.axis[k].log = r.axis[k].value + p.n + 2;
-        rank_axis(&r, p, k, original, sorted);
-    }
-    free(sorted);
-    free(original);
-    *out = r;
-    return KOKSMA_OK;
+    free(w.place);
+    free(w.number);
+    free(w.a);
+    return status;
 }
 
 void ki_ranks_free(ki_ranks *r)

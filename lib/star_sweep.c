@@ -23,11 +23,6 @@
  * position has the right list for an open box and the last for a closed one;
  * the others only understate the deviation. */
 
-typedef struct keyed {
-    double x;
-    size_t i;
-} keyed;
-
 typedef struct level {
     size_t *list;  /* the points inside so far, by coordinate k */
     size_t m;      /* how many */
@@ -36,11 +31,11 @@ typedef struct level {
 } level;
 
 typedef struct scratch {
-    level *levels;  /* dim of them; the last has no list but `last` */
-    double *last;   /* m coordinates, and a 1 while it is swept */
-    double *rank;   /* rank[j] = j/n */
-    double *corner; /* the corner being visited */
-    keyed *sorted;  /* all points by coordinate 0 */
+    level *levels;    /* dim of them; the last has no list but `last` */
+    double *last;     /* m coordinates, and a 1 while it is swept */
+    double *rank;     /* rank[j] = j/n */
+    double *corner;   /* the corner being visited */
+    ki_keyed *sorted; /* room for 2n: all points by coordinate 0 */
 } scratch;
 
 /* One walk over all corners of one kind. */
@@ -59,19 +54,19 @@ static scratch *make_room(size_t n, size_t dim)
     size_t per_point, bytes;
 
     /* This product is more than the sum below it: if one fits, both do. */
-    if (__builtin_mul_overflow(dim + 1, sizeof(size_t) + sizeof(level),
+    if (__builtin_mul_overflow(dim + 2, sizeof(size_t) + sizeof(level),
                                &per_point) ||
         __builtin_mul_overflow(n + 2, per_point, &bytes))
         return NULL;
     bytes = sizeof *room + dim * (sizeof(level) + sizeof(double)) +
-            n * sizeof(keyed) + 2 * (n + 1) * sizeof(double) +
+            2 * n * sizeof(ki_keyed) + 2 * (n + 1) * sizeof(double) +
             (dim - 1) * n * sizeof(size_t);
     room = ki_alloc(1, bytes);
     if (room == NULL) return NULL;
 
     room->levels = (level *)(room + 1);
-    room->sorted = (keyed *)(room->levels + dim);
-    room->last = (double *)(room->sorted + n);
+    room->sorted = (ki_keyed *)(room->levels + dim);
+    room->last = (double *)(room->sorted + 2 * n);
     room->rank = room->last + n + 1;
     room->corner = room->rank + n + 1;
     for (size_t k = 0; k + 1 < dim; k++)
@@ -79,23 +74,15 @@ static scratch *make_room(size_t n, size_t dim)
     return room;
 }
 
-static int by_x(const void *a, const void *b)
-{
-    double x = ((const keyed *)a)->x, y = ((const keyed *)b)->x;
-
-    return (x > y) - (x < y);
-}
-
 static void fill_first_level(scratch *room, koksma_points p)
 {
-    for (size_t i = 0; i < p.n; i++)
-        room->sorted[i] = (keyed){p.x[i * p.dim], i};
-    qsort(room->sorted, p.n, sizeof *room->sorted, by_x);
+    const ki_keyed *sorted = ki_sort_axis(p, 0, room->sorted, room->sorted + p.n);
+
     for (size_t i = 0; i < p.n; i++)
         if (p.dim > 1)
-            room->levels[0].list[i] = room->sorted[i].i;
+            room->levels[0].list[i] = sorted[i].i;
         else
-            room->last[i] = room->sorted[i].x;
+            room->last[i] = sorted[i].x;
     for (size_t j = 0; j <= p.n; j++)
         room->rank[j] = (double)j / (double)p.n;
 }

@@ -5,8 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "part.h"
-#include "star_kernels.h"
+#include "star_run_kernels.h"
 
 /* Private: the branch and bound for the star discrepancy, in these files:
  *
@@ -62,7 +61,8 @@ typedef struct ki_cell {
     uint32_t *low, *high; /* dim ranks each, both included */
     size_t *begin, *end;  /* dim: the list of each axis, in the worker's entries:
                            * points not out along any other axis whose rank lies
-                           * in [low, high], by rank */
+                           * in [low, high], by rank (open boxes: at rank high also
+                           * some that have gone out along another since) */
     size_t live, lives;   /* in the worker's live: points nowhere out and open
                            * along an axis at least */
     size_t inside;        /* points in along every axis */
@@ -76,30 +76,18 @@ typedef struct ki_cell {
     int parts; /* parts visited */
 } ki_cell;
 
-/* What all threads share.  The team's lock guards what changes, the incumbent
- * included; the team's peak is the incumbent's proven value. */
-typedef struct ki_tree {
-    const koksma_star_opts *opts;
-    ki_team *team;
-    ki_ranks ranks[2]; /* of open and of closed boxes */
-    double factor;     /* cells below factor * peak are of no interest; 1: exact */
-    ki_best *best;
-    double upper; /* proven so far */
-    double work;  /* list entries looked at */
-    bool no_memory;
-} ki_tree;
-
 /* Cells to search, each in 2 * dim + 1 numbers: whether its boxes are closed, the
  * low ranks, the high ranks. */
 typedef struct ki_tasks {
     uint32_t *number;
     size_t count, room;
+    double most; /* the greatest of their bounds */
 } ki_tasks;
 
 /* What one thread works with: the path of cells that it is in, and where each
  * point stands with respect to the last of them. */
 typedef struct ki_worker {
-    ki_tree *tree;
+    ki_run *run;
     const ki_ranks *ranks;
 
     ki_cell *cell; /* the path */
@@ -127,7 +115,7 @@ typedef struct ki_worker {
     double work; /* list entries looked at since the last report */
 } ki_worker;
 
-koksma_status ki_worker_begin(ki_worker *w, ki_tree *tree, bool closed);
+koksma_status ki_worker_begin(ki_worker *w, ki_run *run, const ki_ranks *ranks);
 void ki_worker_end(ki_worker *w); /* also of one that is all 0 */
 
 /* Search the cell from low to high.  With tasks, cells whose bound is `most`
@@ -135,13 +123,6 @@ void ki_worker_end(ki_worker *w); /* also of one that is all 0 */
  * stops. */
 void ki_dive(ki_worker *w, const uint32_t *low, const uint32_t *high, double most,
              ki_tasks *tasks);
-
-/* Offer the box at corner to the incumbent. */
-void ki_tree_offer(ki_tree *t, const double *corner, size_t inside, bool closed);
-
-/* Add `work` to that of the tree, tell the caller, and ask whether to go on; with
- * the lock held. */
-void ki_tree_report(ki_tree *t, double work);
 
 /* Make cell `depth` of the path a copy of the one before, and return it. */
 ki_cell *ki_cell_enter(ki_worker *w, size_t depth);
@@ -158,8 +139,10 @@ bool ki_cell_settle(ki_worker *w, ki_cell *c, bool *empty);
 void ki_cell_leave(ki_worker *w, const ki_cell *c);
 
 /* An upper bound of the deviations of all corners in the cell that are not below
- * the target; new_low and new_high get the ranges that such corners keep to.
- * Below the target, the bound says that there is none. */
+ * the target; new_low and new_high get the ranges that such corners keep to
+ * (they may cross: then settling finds the cell empty).
+ * Below the target, the bound says that there is none.  The target is 0 or more, so
+ * that no digits cancel in the least volume that matters; or -1: all corners. */
 double ki_cell_bound(ki_worker *w, const ki_cell *c, double target);
 
 /* ---- What the two halves of the bound share ---------------------------------- */

@@ -43,10 +43,10 @@ static inline void *bench_alloc(size_t count, size_t size)
     return p;
 }
 
-static inline void bench_must(int status, const char *what)
+static inline void bench_must(long status, const char *what)
 {
     if (status == 0) return;
-    fprintf(stderr, "bench: %s failed with status %d\n", what, status);
+    fprintf(stderr, "bench: %s failed with status %ld\n", what, status);
     exit(EXIT_FAILURE);
 }
 

@@ -16,14 +16,16 @@ static void bench(const koksma_integrand_row *row, size_t dim)
     koksma_gen *g;
     char name[64];
 
-    bench_must(koksma_integrand_make(&f, NULL, row, dim, NULL, NULL), row->name);
-    bench_must(koksma_gen_open(&g, koksma_gen_find("random"), &o, NULL), "open");
-    bench_must(koksma_gen_fill(g, x, 0, n, NULL), "koksma_gen_fill");
+    bench_must((int)koksma_integrand_make(&f, NULL, row, dim, NULL, NULL),
+               row->name);
+    bench_must((int)koksma_gen_open(&g, koksma_gen_find("random"), &o, NULL),
+               "open");
+    bench_must((int)koksma_gen_fill(g, x, 0, n, NULL), "koksma_gen_fill");
     koksma_gen_close(g);
     for (size_t i = 0; i < n; i++)
         v[i] = 0.0; /* touch the pages */
     started = bench_now();
-    bench_must(koksma_integrand_eval(v, &f, (koksma_points){x, n, dim}, NULL),
+    bench_must((int)koksma_integrand_eval(v, &f, (koksma_points){x, n, dim}, NULL),
                row->name);
     for (size_t i = 0; i < n; i++)
         sum += v[i];

@@ -1,39 +1,7 @@
 #!/bin/sh
 # The tools as their users meet them: each row is a command, and what it must
 # print on both outputs and return.
-set -u
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
-cd "$scratch" || exit 1
-tab=$(printf '\t')
-failures=0
-
-# t NAME STATUS STDOUT STDERR COMMAND: run COMMAND and compare all three.
-t() {
-    sh -c "$5" >out 2>err </dev/null
-    status=$?
-    printf '%s' "${3:+$3
-}" >want.out
-    printf '%s' "${4:+$4
-}" >want.err
-    [ "$status" -eq "$2" ] && cmp -s out want.out && cmp -s err want.err && return
-    failures=$((failures + 1))
-    echo "FAILED: $1: $5"
-    [ "$status" -eq "$2" ] || echo "exit status $status, not $2"
-    diff want.out out
-    diff want.err err
-}
-
-# has NAME STATUS PATTERN COMMAND: only the status, and a line of either output.
-has() {
-    sh -c "$4" >out 2>&1 </dev/null
-    status=$?
-    [ "$status" -eq "$2" ] && grep -q -e "$3" out && return
-    failures=$((failures + 1))
-    echo "FAILED: $1: $4"
-    echo "exit status $status (want $2), and no line like '$3' in:"
-    head -n 20 out
-}
+. "${top_srcdir:=.}/tests/cli_rows.sh"
 
 head="# n${tab}dim${tab}lower${tab}upper"
 
@@ -58,7 +26,7 @@ t two-files 0 "a:1${tab}1${tab}1${tab}0.5${tab}0.5
 t second-opinion 0 "" "" \
     'koksma-points halton -d 4 -n 200 >p; koksma-star -w -m tree p >1
      koksma-star -w -m dem p >2; cmp 1 2'
-has what-was-done 0 'dem, [0-9.e+]* products' \
+has what-was-done 0 'dem (as told), [0-9.e+]* products' \
     'koksma-points halton -d 3 -n 50 | koksma-star -m dem -v'
 t points 0 "# koksma-points halton -n 3 -d 2
 # koksma: points=halton scramble=none
@@ -103,27 +71,52 @@ t scene 0 "# koksma: integrand=sphere dim=4 bounces=2 albedo=0.5 cap=0.2 height=
 t scene-resolved 0 "" "" 'koksma-points halton -n 128 | koksma-eval sphere >/dev/null'
 t scene-sets 0 "" "koksma-eval: under-resolved: 1 of 2 sets have fewer than 10 hits; in one of them 0 of 1 walks hit" \
     '{ koksma-points halton -n 128; echo; echo 0 0; } | koksma-eval sphere >/dev/null'
-t error 0 "# koksma: integrand=f2 dim=2 a=0 exact=0.5
-# set${tab}N${tab}error${tab}tail
-1${tab}1${tab}-0.5${tab}0.5
-1${tab}2${tab}0${tab}0.16666666666666666
-1${tab}3${tab}0.16666666666666666${tab}0.16666666666666666" "" \
-    'printf "0 0\n1 1\n1 1\n" | koksma-eval f2 | koksma-error'
-t error-told 0 "1${tab}1${tab}-0.75${tab}0.75" "" 'echo 0.1 .25 | koksma-error --exact 1 -q'
-t fit-one-path 0 "exponent${tab}-1${tab}nan${tab}nan${tab}nan${tab}measured
--1/2${tab}-0.5${tab}-0.55${tab}-0.45${tab}nan${tab}none
--1${tab}-1${tab}-1.05${tab}-0.95${tab}nan${tab}none
-curvature${tab}x" "" \
-    'printf "16 4\n64 1\n256 .25\n" | koksma-fit -x 1 -y 2 -q | sed "s/^\(curvature.\).*/\1x/"'
-has star-curve 0 '^exponent	-0\.' \
+t error 0 "# koksma: integrand=f2 dim=2 a=0 exact=0.5 sigma=0.5 sigma_from=values largest=1
+# set${tab}N${tab}error${tab}tail${tab}mc
+1${tab}1${tab}-0.5${tab}0.5${tab}0.5
+1${tab}2${tab}0${tab}0.16666666666666666${tab}0.35355339059327373
+1${tab}3${tab}0.16666666666666666${tab}0.16666666666666666${tab}0.2886751345948129
+1${tab}4${tab}0${tab}0${tab}0.25" "" \
+    'printf "0 0\n1 1\n1 1\n0 0\n" | koksma-eval f2 | koksma-error'
+t error-told 0 "1${tab}1${tab}-0.75${tab}0.75${tab}0.75" "" \
+    'echo 0.1 .25 | koksma-error --exact 1 -q'
+t error-variance 0 "1${tab}4${tab}0.25${tab}0.25${tab}1.5" "" \
+    'printf "# koksma: variance=9\n0 1\n0 1\n0 -2\n0 1\n" |
+     koksma-error --exact 0 --prefixes 4 -q'
+t error-prefixes 0 "1${tab}3
+1${tab}4
+1${tab}8
+1${tab}16
+1${tab}20" "" \
+    'koksma-points halton -n 50 | koksma-eval f2 |
+     koksma-error --prefixes 3,2^2:20 --steps 1 -q | cut -f 1,2'
+t error-mean 0 "1${tab}1${tab}-0.5${tab}0.5${tab}0.5
+2${tab}1${tab}0.5${tab}0.5${tab}0.5" "" \
+    'printf "0 0\n0 1\n0 0\n0 1\n\n0 1\n0 0\n0 1\n0 0\n" | koksma-error --exact mean -q'
+t fit-one-path 0 "power${tab}-1${tab}nan${tab}nan${tab}nan${tab}nan${tab}none${tab}path${tab}-1/2=nan;-1=nan${tab}-" "" \
+    'printf "16 4\n64 1\n256 .25\n" | koksma-fit -x 1 -y 2 -q | cut -f 1-10'
+t fit-box 0 "1.5 3 2 8" "" \
+    'printf "# k K\n2 8\n4 22.627416997969522\n8 64\n" | koksma-fit -x k -y K -q |
+     awk "{ print 0 + sprintf(\"%.9f\", \$2), \$23, \$25, \$26 }"'
+t fit-even 0 "0.25" "" \
+    'printf "16 4\n64 1\n256 .25\n" |
+     koksma-fit -x 1 -y 2 -q -d 2 --area 3 --jump 1 --sigma 1 | cut -f 21'
+has star-curve 0 '^power	-0\.' \
     'for n in 64 128 256 512; do koksma-points halton -n $n; echo; done | koksma-star |
-     koksma-fit -x n -y upper'
+     koksma-fit'
+t path-of-many 0 "" "" \
+    'koksma-points random -n 2^10 --replicates 3 | koksma-eval f2 | koksma-error >e
+     koksma-fit --path 2 -q e >1; grep -v "^[13]" e | koksma-fit -q >2; cmp 1 2'
+has path-said 0 '^It is set 3 alone.  This is one path' 'koksma-fit --path 3 --explain e'
+has claim 0 '	-0.5	equivalent	-	claim=' \
+    'koksma-points random -n 2^13 --replicates 64 -s 5 | koksma-eval f2 | koksma-error |
+     koksma-fit --claim -0.5 --margin 0.2'
 t power-in-window 0 "" "" \
     'printf "16 4\n64 1\n256 .25\n" | koksma-fit -x 1 -y 2 -q --from 2^4 >/dev/null'
-has slope 0 'equivalent to -(D+1)/2D = -0.75' \
+has slope 0 '^Verdict: equivalent to -(D+1)/2D = -0.75, within 0.1' \
     'koksma-points halton -n 2^13 --scramble digits --replicates 64 | koksma-eval f2 |
      koksma-error | koksma-fit --explain --margin 0.1'
-has summary 0 "^64${tab}.*${tab}8\$" \
+has summary 0 "^64${tab}.*${tab}8${tab}0.0625\$" \
     'koksma-points halton -n 64 --scramble digits --replicates 8 | koksma-eval f2 |
      koksma-error --summary'
 t same-bits 0 "" "" \
@@ -178,13 +171,55 @@ t no-value 1 "" 'koksma-error: line 1: 1 column, but a point and its value take 
 t unequal 1 "" \
     'koksma-error: set 2 has 2 values, the first set 1: --summary takes equal ones' \
     'printf "0 1\n\n0 1\n0 1\n" | koksma-error --exact 0 --summary'
-t fit-column 1 "" 'koksma-fit: standard input: no column is called "error"' \
+t fit-column 1 "" 'koksma-fit: standard input: no column is called "error|rms|upper"' \
     'printf "# N err\n1 1\n" | koksma-fit'
 t fit-short 1 "" \
-    'koksma-fit: standard input: 1 usable N in the window, 0 dropped: a fit takes 3' \
+    'koksma-fit: standard input: 1 usable N in [0, inf], and a fit takes 3; left out: 0 incomplete, 0 of zeros, 0 below rounding' \
     'printf "16 4\n" | koksma-fit -x 1 -y 2'
+t fit-zeros 1 "" \
+    'koksma-fit: standard input: errors of 0 at all 3 N in the window: there is nothing to fit' \
+    'printf "16 0\n32 0\n64 0\n" | koksma-fit -x 1 -y 2'
+has fit-floor 1 '0 usable N in .*, 3 below rounding' \
+    'printf "# koksma: largest=1\n# N error\n16 4e-17\n32 2e-17\n64 1e-17\n" | koksma-fit'
+t fit-negative 1 "" \
+    'koksma-fit: standard input: row 2 has N = -32 and error 1: N must be above 0, both finite' \
+    'printf "16 2\n-32 1\n64 1\n" | koksma-fit -x 1 -y 2'
+t fit-no-interval 1 "" \
+    'koksma-fit: one path has no interval: --level and --margin take replicates' \
+    'printf "16 4\n64 1\n256 .25\n" | koksma-fit -x 1 -y 2 --level 0.9'
+t fit-path 1 "" 'koksma-fit: --path 2: the table has 1 sets' \
+    'printf "16 4\n64 1\n256 .25\n" | koksma-fit -x 1 -y 2 --path 2'
+t short-set 1 "" 'koksma-error: set 1 has 2 values, and --prefixes asks for 4' \
+    'printf "0 0\n0 1\n" | koksma-error --exact 0 --prefixes 1,4'
+t mean-of-one 1 "" \
+    'koksma-error: --exact mean takes replicates: the error of one set from its own mean ends at 0' \
+    'printf "0 0\n0 1\n" | koksma-error --exact mean'
 t fit-word 1 "" 'koksma-fit: line 2: column 2 is four, not a finite number' \
     'printf "16 4\n32 four\n" | koksma-fit -x 1 -y 2'
+
+# ---- L2 discrepancies --------------------------------------------------------------
+
+t l2 0 "# n${tab}dim${tab}lower${tab}upper
+1${tab}1${tab}0.08333333333333331${tab}0.08333333333333334" "" \
+    'echo 0.5 | koksma-l2 -k centered -m divide --squared'
+t l2-one-point 0 "1${tab}1${tab}0.5773502691896256${tab}0.577350269189626" "" \
+    'echo 0 | koksma-l2 -q'
+t l2-prefixes 0 "1${tab}1
+2${tab}1
+4${tab}1
+5${tab}1" "" \
+    'seq 0 0.25 1 | koksma-l2 -q --prefixes 1:4,5 | cut -f 1,2'
+t l2-prefix-too-long 1 "" 'koksma-l2: set 1 has 1 points, and --prefixes asks for 2' \
+    'echo 0 | koksma-l2 -q --prefixes 2'
+has l2-log10 0 '^1	1000	-238.56' \
+    'koksma-points grid -d 1000 -n 1 | sed "/^#/d;s/0/1/g" | koksma-l2 -q --log10'
+has l2-small 0 'out of the range of doubles: see --log10' \
+    'koksma-points grid -d 1000 -n 1 | sed "s/0.5/1/g" | koksma-l2 -k extreme'
+has l2-verbose 0 'star, divide, .* steps' 'koksma-points halton -n 9 | koksma-l2 -v -m divide'
+has l2-prefix-word 2 '^koksma-l2: --prefixes takes' 'echo 0 | koksma-l2 --prefixes 4:2'
+has l2-kind 2 '^koksma-l2: -k takes star, .*, not "best"$' 'echo 0 | koksma-l2 -k best'
+has l2-method 2 '^koksma-l2: -m takes .*, not "best"$' 'echo 0 | koksma-l2 -m best'
+has l2-time 3 '0	inf$' 'koksma-points random -d 20 -n 30000 | koksma-l2 -q -t 0.01 -m pairs'
 
 # ---- Bad command lines -------------------------------------------------------------
 
@@ -207,6 +242,10 @@ t sobol-dim 2 "" "koksma-points: dimension 51: sobol has 1 to 50$try" \
     'koksma-points sobol -d 51'
 t too-far 2 "" "koksma-points: indices reach beyond 2^64 - 1$try" \
     'koksma-points halton --start 18446744073709551615 -n 2'
+t prefixes-fall 2 "" \
+    "koksma-error: --prefixes takes numbers that rise, not \"4,2\"
+Try 'koksma-error -h'." 'koksma-error --prefixes 4,2'
+has prefixes-range 2 'takes a whole number from 8 to' 'koksma-error --prefixes 8:4'
 has method 2 '^koksma-star: -m takes .*, not "best"$' 'echo .5 | koksma-star -m best'
 has unknown-option 2 "Try 'koksma-star -h'." 'koksma-star --nonsense'
 has parameter 2 'f2 has a from 0 to 0.5, not 0.75' 'echo 0 0 | koksma-eval f2 -a .75'
@@ -240,5 +279,4 @@ has interrupt 3 '	1$' \
 has interrupt-twice 3 '	1$' \
     'sh -c "trap - INT; exec koksma-star -q p" & sleep 1; kill -INT $!; kill -INT $!; wait $!'
 
-[ "$failures" -eq 0 ] || echo "$failures rows failed"
-[ "$failures" -eq 0 ]
+rows_end

@@ -12,24 +12,29 @@ AM_TESTS_ENVIRONMENT = \
   PATH='$(abs_top_builddir)/bin':$$PATH; export PATH;
 
 structure_scripts = \
-  %D%/cli.sh %D%/floors.sh %D%/headers.sh %D%/man.sh %D%/names.sh %D%/symbols.sh
+  %D%/cli.sh %D%/cli_star.sh %D%/floors.sh %D%/headers.sh %D%/man.sh %D%/names.sh \
+  %D%/symbols.sh
 TESTS      += $(structure_scripts) %D%/replay.sh
-EXTRA_DIST += $(structure_scripts) %D%/replay.sh %D%/corpus
+EXTRA_DIST += $(structure_scripts) %D%/cli_rows.sh %D%/replay.sh %D%/corpus
 
 # ---- Unit tests: one Check program a module ------------------------------------
 
 if HAVE_CHECK
 check_LTLIBRARIES += %D%/liboracle.la
 %C%_liboracle_la_SOURCES = \
-  %D%/oracle.c %D%/oracle.h %D%/gen_fixture.h %D%/integrand_fixture.h %D%/io_fixture.h \
+  %D%/oracle.c %D%/oracle.h %D%/fit_fixture.h %D%/gen_fixture.h \
+  %D%/integrand_fixture.h %D%/io_fixture.h %D%/paths.h \
   %D%/npy_fixture.h
 
 unit_tests = \
-  %D%/test_curve %D%/test_extra %D%/test_fit %D%/test_gen %D%/test_gen_digits \
-  %D%/test_facts %D%/test_fractals %D%/test_integrand %D%/test_io %D%/test_io_npy %D%/test_io_npy_bad \
+  %D%/test_curve %D%/test_extra %D%/test_facts %D%/test_fit %D%/test_fit_coverage \
+  %D%/test_fit_judge %D%/test_fit_mixture %D%/test_fit_rules \
+  %D%/test_fractals %D%/test_gen %D%/test_gen_digits \
+  %D%/test_integrand %D%/test_io %D%/test_io_npy %D%/test_io_npy_bad \
   %D%/test_io_number %D%/test_io_reader %D%/test_io_table %D%/test_io_write \
-  %D%/test_known %D%/test_num %D%/test_points %D%/test_rng %D%/test_scene %D%/test_shapes %D%/test_star \
-  %D%/test_star_methods %D%/test_star_search
+  %D%/test_known %D%/test_l2 %D%/test_num %D%/test_part %D%/test_points \
+  %D%/test_rng %D%/test_scene %D%/test_shapes %D%/test_star %D%/test_star_bound %D%/test_star_lines \
+  %D%/test_star_methods %D%/test_star_search %D%/test_star_threads
 LDADD = %D%/liboracle.la lib/libcore.la $(CHECK_LIBS)
 
 
@@ -43,7 +48,7 @@ TESTS          += $(unit_tests)
 AM_CPPFLAGS    += $(CHECK_CFLAGS)
 endif
 
-.PHONY: check-big check-valgrind check-sanitize
+.PHONY: check-big check-valgrind check-sanitize check-threads
 # The cases tagged big, and twenty times the random sets.
 check-big:
 	CK_EXCLUDE_TAGS=none KOKSMA_TEST_SCALE=$${KOKSMA_TEST_SCALE-20} $(MAKE) check
@@ -65,6 +70,22 @@ check-sanitize:
 	cd sanitize && { test -f Makefile || \
 	  $(abs_top_srcdir)/configure --disable-shared CC='$(CC)' CFLAGS='$(SANITIZE)'; } && \
 	  $(MAKE) check
+
+# And another, in threads/: what runs in several threads at once, and nothing else,
+# since the thread sanitizer makes everything ten times as slow.  Cases tagged slow
+# are left out here too.
+THREAD_TESTS = %D%/test_part %D%/test_star_threads
+check-threads:
+	$(MKDIR_P) threads
+	cd threads && { test -f Makefile || \
+	  $(abs_top_srcdir)/configure --disable-shared CC='$(CC)' \
+	    CFLAGS='-g -O1 -fsanitize=thread'; } && \
+	  $(MAKE) all && $(MAKE) $(THREAD_TESTS) && \
+	  for test in $(THREAD_TESTS); do \
+	    CK_FORK=no CK_EXCLUDE_TAGS='big slow' ./$$test || exit 1; \
+	  done && \
+	  bin/koksma-points halton -d 4 -n 500 >points.txt && \
+	  bin/koksma-star -j 4 --trace points.txt && bin/koksma-star -j 4 points.txt
 
 # ---- Fuzzing: the targets are replayed over the corpus in make check -----------
 
@@ -91,21 +112,26 @@ fuzz: $(BUILT_SOURCES)
 clean-local: clean-fuzz
 .PHONY: clean-fuzz
 clean-fuzz:
-	rm -rf fuzz sanitize
+	rm -rf fuzz sanitize threads
 
 # ---- Benches ---------------------------------------------------------------------
 
-benches = %D%/bench_gen %D%/bench_io %D%/bench_star %D%/bench_fit \
-  %D%/bench_integrand
+benches = \
+  %D%/bench_gen %D%/bench_io %D%/bench_star %D%/bench_star_trade %D%/bench_l2 \
+  %D%/bench_fit %D%/bench_integrand
 EXTRA_PROGRAMS += $(benches)
 CLEANFILES     += $(benches)
 %C%_bench_gen_SOURCES  = %D%/bench_gen.c %D%/bench.h
 %C%_bench_gen_LDADD    = lib/libcore.la
 %C%_bench_io_SOURCES   = %D%/bench_io.c %D%/bench.h
 %C%_bench_io_LDADD     = lib/libcore.la
-%C%_bench_star_SOURCES = %D%/bench_star.c %D%/bench.h
+%C%_bench_star_SOURCES = %D%/bench_star.c %D%/bench_star.h %D%/bench.h
 %C%_bench_star_LDADD   = lib/libcore.la
-%C%_bench_fit_SOURCES  = %D%/bench_fit.c %D%/bench.h
+%C%_bench_star_trade_SOURCES = %D%/bench_star_trade.c %D%/bench_star.h %D%/bench.h
+%C%_bench_star_trade_LDADD   = lib/libcore.la
+%C%_bench_l2_SOURCES   = %D%/bench_l2.c %D%/bench.h
+%C%_bench_l2_LDADD     = lib/libcore.la
+%C%_bench_fit_SOURCES  = %D%/bench_fit.c %D%/bench.h %D%/paths.h
 %C%_bench_fit_LDADD    = lib/libcore.la
 %C%_bench_integrand_SOURCES = %D%/bench_integrand.c %D%/bench.h
 %C%_bench_integrand_LDADD   = lib/libcore.la

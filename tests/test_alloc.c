@@ -11,6 +11,7 @@
 #include "fit.h"
 #include "gen.h"
 #include "io.h"
+#include "l2.h"
 #include "oracle.h"
 #include "star.h"
 
@@ -84,6 +85,34 @@ static koksma_status dem_job(koksma_error *err)
 static koksma_status search_job(koksma_error *err)
 {
     return star_by(KOKSMA_STAR_SEARCH, err);
+}
+
+static koksma_status lines_job(koksma_error *err)
+{
+    static const double x[] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6};
+    koksma_star_opts opts = {.method = KOKSMA_STAR_LINES, .threads = 1};
+    koksma_star_result r = {0};
+
+    return koksma_star(&r, (koksma_points){x, 3, 2}, &opts, err);
+}
+
+static koksma_status l2_by(koksma_l2_method method, koksma_error *err)
+{
+    static const double x[] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6};
+    koksma_l2_opts opts = {.method = method, .threads = 1};
+    koksma_l2_result r;
+
+    return koksma_l2(&r, (koksma_points){x, 2, 3}, &opts, err);
+}
+
+static koksma_status pairs_job(koksma_error *err)
+{
+    return l2_by(KOKSMA_L2_PAIRS, err);
+}
+
+static koksma_status divide_job(koksma_error *err)
+{
+    return l2_by(KOKSMA_L2_DIVIDE, err);
 }
 
 static koksma_status gen_job(koksma_error *err)
@@ -191,15 +220,18 @@ START_TEST(every_allocation_may_fail)
 {
     ck_assert_int_ge(exhaust(sweep_job), 2);
     ck_assert_int_ge(exhaust(tree_job), 20);
+    ck_assert_int_ge(exhaust(lines_job), 8);
     ck_assert_int_ge(exhaust(dem_job), 2);
     ck_assert_int_ge(exhaust(search_job), 7);
+    ck_assert_int_ge(exhaust(pairs_job), 3);
+    ck_assert_int_ge(exhaust(divide_job), 8);
     ck_assert_int_ge(exhaust(gen_job), 5);
     ck_assert_int_ge(exhaust(sobol_job), 2);
     ck_assert_int_ge(exhaust(text_job), 4);
     ck_assert_int_ge(exhaust(npy_job), 5);
     ck_assert_int_ge(exhaust(table_job), 4);
     ck_assert_int_ge(exhaust(curve_job), 1);
-    ck_assert_int_ge(exhaust(fit_job), 3);
+    ck_assert_int_ge(exhaust(fit_job), 6);
 }
 END_TEST
 

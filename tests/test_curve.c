@@ -241,6 +241,91 @@ START_TEST(no_values)
 }
 END_TEST
 
+/* Rows where they are wanted, as far as the values reach, and tails to the end. */
+START_TEST(given_rows)
+{
+    static const uint64_t wanted[] = {2, 3, 7, 500, 1000};
+    oracle_rng rng = oracle_rng_start(oracle_seed(), 9);
+    const koksma_curve_row *all, *row;
+    size_t count;
+
+    random_values(&rng, 900, 1);
+    for (size_t n = 1; n <= 900; n += n < 20 ? 1 : 83) {
+        koksma_curve *every = open_curve(64, 0.5), *c = NULL;
+        size_t reached = n < 2 ? 0 : n < 3 ? 1 : n < 7 ? 2 : n < 500 ? 3 : 4;
+
+        ck_assert_int_eq(koksma_curve_open_at(&c, wanted, 5, NULL), KOKSMA_OK);
+        koksma_curve_begin(c, 0.5);
+        koksma_curve_add(c, values, 1, n);
+        koksma_curve_add(every, values, 1, n);
+        ck_assert_uint_eq(get_rows(c, &row), reached);
+        count = get_rows(every, &all);
+        for (size_t j = 0; j < reached; j++)
+            for (size_t i = 0; i < count; i++)
+                if (all[i].n == wanted[j])
+                    ck_assert(row[j].n == all[i].n &&
+                              row[j].error == all[i].error &&
+                              row[j].tail == all[i].tail);
+        for (size_t j = 0; j < reached; j++)
+            ck_assert_uint_eq(row[j].n, wanted[j]);
+        koksma_curve_close(every);
+        koksma_curve_close(c);
+    }
+}
+END_TEST
+
+START_TEST(extremes)
+{
+    for (uint64_t round = 0; round < 20; round++) {
+        oracle_rng rng = oracle_rng_start(oracle_seed(), round);
+        size_t n = 1 + oracle_below(&rng, 300), count;
+        koksma_curve *c = open_curve(2, 0.25), *other = open_curve(2, 0.5);
+        const koksma_curve_row *row, *shifted;
+        double least = HUGE_VAL, most = -HUGE_VAL, sum = 0.0;
+
+        random_values(&rng, n, 0);
+        koksma_curve_add(c, values, 1, n);
+        koksma_curve_add(other, values, 1, n);
+        count = get_rows(c, &row);
+        ck_assert_uint_eq(get_rows(other, &shifted), count);
+        for (size_t i = 0; i < n; i++) {
+            sum += values[i] - 0.25;
+            running[i + 1] = sum / (double)(i + 1);
+        }
+        for (size_t j = count, i = n; j-- > 0;) {
+            koksma_curve_row s = koksma_curve_shifted(row[j], 0.25);
+
+            for (; i >= row[j].n; i--) {
+                least = fmin(least, running[i]);
+                most = fmax(most, running[i]);
+            }
+            ck_assert(near(row[j].least, least) && near(row[j].most, most));
+            ck_assert_double_eq_tol(s.error, shifted[j].error, 1e-15);
+            ck_assert_double_eq_tol(s.tail, shifted[j].tail, 1e-15);
+            ck_assert_double_eq_tol(s.least, shifted[j].least, 1e-15);
+            ck_assert_double_eq_tol(s.most, shifted[j].most, 1e-15);
+        }
+        koksma_curve_close(c);
+        koksma_curve_close(other);
+    }
+}
+END_TEST
+
+/* 1, -3, 2 about 1/2: deviations 1/2, -7/2, 3/2. */
+START_TEST(totals)
+{
+    koksma_curve *c = open_curve(1, 0.5);
+    koksma_curve_total t = koksma_curve_so_far(c);
+
+    ck_assert(t.n == 0 && t.error == 0.0 && t.square == 0.0 && t.largest == 0.0);
+    koksma_curve_add(c, (const double[]){1.0, -3.0, 2.0}, 1, 3);
+    t = koksma_curve_so_far(c);
+    ck_assert(t.n == 3 && t.error == -0.5 && t.largest == 3.0);
+    ck_assert_double_eq_tol(t.square, 14.75 / 3.0, 1e-15);
+    koksma_curve_close(c);
+}
+END_TEST
+
 START_TEST(refused)
 {
     static const double bad[][4] = {{1e308, 1e308, 0.0, 0.0},
@@ -268,6 +353,12 @@ START_TEST(refused)
     ck_assert_int_eq(koksma_curve_open(&none, 0, &err), KOKSMA_EINVAL);
     ck_assert_int_eq(koksma_curve_open(&none, 65, &err), KOKSMA_EINVAL);
     ck_assert_str_eq(err.text, "65 steps an octave: 1 to 64 make sense");
+    ck_assert_int_eq(koksma_curve_open_at(&none, NULL, 0, &err), KOKSMA_EINVAL);
+    ck_assert_int_eq(koksma_curve_open_at(&none, (uint64_t[]){0}, 1, &err),
+                     KOKSMA_EINVAL);
+    ck_assert_int_eq(koksma_curve_open_at(&none, (uint64_t[]){4, 9, 9}, 3, &err),
+                     KOKSMA_EINVAL);
+    ck_assert_str_eq(err.text, "N = 9 does not follow 9: they have to rise");
     ck_assert_ptr_null(none);
 }
 END_TEST
@@ -355,6 +446,9 @@ int main(void)
     tcase_add_test(tc, pieces);
     tcase_add_test(tc, rows_twice);
     tcase_add_test(tc, a_million_tenths);
+    tcase_add_test(tc, given_rows);
+    tcase_add_test(tc, extremes);
+    tcase_add_test(tc, totals);
     tcase_add_test(tc, no_values);
     tcase_add_test(tc, refused);
 

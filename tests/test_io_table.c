@@ -42,6 +42,10 @@ static const struct {
     {"# 2 1\n3 4", "1", "2", "0: 3 4", 1, false}, /* numbers are numbers */
     {"# a-b 1st\n3 4", "a-b", "1st", "0: 3 4", 1, false},
     {"1 2 3 4 5 6 7 8 9 10 11 12", "10", "12", "0: 10 12", 1, false},
+    /* The first of several names that there is. */
+    {"# n N\n1 2", "N|n", "n|N", "0: 2 1", 1, false},
+    {"# n b\n1 2", "N|n", "a|b|c", "0: 1 2", 1, false},
+    {"# n na\n1 2", "na|n", "nan|n", "0: 2 1", 1, false},
     /* The last comment line before the rows names the columns. */
     {"# b a\n# a b\n1 2", "a", "b", "0: 1 2", 1, false},
     {"# a b\n# koksma: f=f2\n1 2", "a", "b", "0: 1 2", 1, false},

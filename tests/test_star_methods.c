@@ -104,7 +104,9 @@ static void check_witness(const koksma_star_result *r, koksma_points p)
     ck_assert(oracle_narrow(r->value));
 }
 
-static const char *const names[] = {"auto", "sweep", "tree", "dem"};
+static const char *const names[] = {[KOKSMA_STAR_SWEEP] = "sweep",
+                                    [KOKSMA_STAR_TREE] = "tree",
+                                    [KOKSMA_STAR_DEM] = "dem"};
 
 static void agree(koksma_points p, koksma_star_method one, koksma_star_method other,
                   const char *kind, uint64_t round)
@@ -217,6 +219,32 @@ START_TEST(more_axes_than_bits_in_a_word)
 }
 END_TEST
 
+/* 20 points: 16 at (1/4,1/4,1/4), one more along the first axis at 1/2, two along
+ * the second at 1, one along the third at 1/2.  The closed boxes that end at
+ * (1/4,1,1/4) and (1/2,1/4,1/2) tie for the best, with 18 points and volume 1/16.
+ * To dem they are in the same cell, in which it comes upon the second one first. */
+START_TEST(tie_in_a_cell)
+{
+    static const double best[] = {0.25, 1.0, 0.25};
+    static answer a;
+    double x[60];
+
+    for (size_t i = 0; i < 60; i++)
+        x[i] = 0.25;
+    x[16 * 3] = 0.5;
+    x[17 * 3 + 1] = x[18 * 3 + 1] = 1.0;
+    x[19 * 3 + 2] = 0.5;
+    for (int m = KOKSMA_STAR_SWEEP; m <= KOKSMA_STAR_DEM; m++) {
+        solve(&a, (koksma_points){x, 20, 3}, (koksma_star_method)m);
+        check_witness(&a.r, (koksma_points){x, 20, 3});
+        ck_assert(a.r.value.lower <= 0.8375 && a.r.value.upper >= 0.8375);
+        ck_assert_uint_eq(a.r.witness.inside, 18);
+        for (size_t k = 0; k < 3; k++)
+            ck_assert(a.corner[k] == best[k]);
+    }
+}
+END_TEST
+
 /* Families of low discrepancy, where little can be dropped; and full grids. */
 static const struct family {
     const char *name;
@@ -248,6 +276,7 @@ int main(void)
 
     tcase_add_loop_test(quick, small_sets, 0, KINDS);
     tcase_add_test(quick, vanishing_volumes);
+    tcase_add_test(quick, tie_in_a_cell);
     tcase_add_test(quick, more_axes_than_bits_in_a_word);
     tcase_add_loop_test(slow, large_sets, 0, KINDS * SHAPES);
     tcase_add_loop_test(slow, low_discrepancy, 0,
