@@ -1,5 +1,6 @@
 /* koksma-eval: an integrand's values at the points of each set. */
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -114,15 +115,6 @@ static void apply_bounces(request *r)
 
 /* ---- --list ------------------------------------------------------------------ */
 
-static void print_params(const koksma_integrand_row *row, const double *param,
-                         const char *between)
-{
-    for (size_t i = 0; i < koksma_integrand_params(row); i++) {
-        printf("%s%s=", i > 0 ? between : "", row->params[i].name);
-        cli_number(param[i]);
-    }
-}
-
 static void list_row(const koksma_integrand_row *row, size_t dim,
                      const double *param)
 {
@@ -137,7 +129,10 @@ static void list_row(const koksma_integrand_row *row, size_t dim,
 
     printf("%s\t%zu\t", row->name, f.dim);
     if (koksma_integrand_params(row) == 0) putchar('-');
-    print_params(row, f.param, ",");
+    for (size_t i = 0; i < koksma_integrand_params(row); i++) {
+        printf("%s%s=", i > 0 ? "," : "", row->params[i].name);
+        cli_number(f.param[i]);
+    }
     for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
         putchar('\t');
         cli_number(known[i]);
@@ -163,20 +158,29 @@ _Noreturn static void list_integrands(const request *r)
 
 /* ---- Values ------------------------------------------------------------------ */
 
+static void print_key(const char *key, double v)
+{
+    if (!isfinite(v)) return;
+    printf(" %s=", key);
+    cli_number(v);
+}
+
 /* What is known of the values: the tools further down need not be told. */
 static void print_comment(const job *j, const char *about)
 {
     bool scene = koksma_scene_find(j->row->name) != NULL;
 
     if (cli_quiet()) return;
-    printf("# koksma:%s integrand=%s dim=%zu ", about, j->row->name, j->f.dim);
-    if (scene) printf("bounces=%zu ", koksma_scene_bounces(&j->f));
-    print_params(j->row, j->f.param, " ");
-    fputs(koksma_integrand_params(j->row) > 0 ? " exact=" : "exact=", stdout);
-    cli_number(j->facts.integral);
-    if (scene) {
-        fputs(" neumann=", stdout);
-        cli_number(koksma_scene_neumann(&j->f));
+    printf("# koksma:%s integrand=%s dim=%zu", about, j->row->name, j->f.dim);
+    if (scene) printf(" bounces=%zu", koksma_scene_bounces(&j->f));
+    for (size_t i = 0; i < koksma_integrand_params(j->row); i++)
+        print_key(j->row->params[i].name, j->f.param[i]);
+    print_key("exact", j->facts.integral);
+    if (scene) print_key("neumann", koksma_scene_neumann(&j->f));
+    print_key("variance", j->facts.variance);
+    if (j->facts.jump > 0.0) {
+        print_key("area", j->facts.area);
+        print_key("jump", j->facts.jump_rms);
     }
     fputs("\n# ", stdout);
     for (size_t k = 0; k < j->f.dim; k++)
