@@ -1,17 +1,24 @@
 /* koksma-eval: an integrand's values at the points of each set. */
 
+#include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "cli.h"
 #include "integrand.h"
+#include "scene.h"
 
-enum { NPY = CLI_LONG, HEX, LIST };
+enum { NPY = CLI_LONG, HEX, LIST, BOUNCES, ALBEDO, CAP };
 
 static const cli_option options[] = {
-    {'a', "parameter", "A", "the integrand's parameter (default 0)"},
+    {'a', "parameter", "NAME=V", "a parameter of the integrand; V: the first"},
+    {'d', "dim", "DIM", "the dimension (default: the points')"},
+    {BOUNCES, "bounces", "N", "steps of a walk in the scene, two coordinates each"},
+    {ALBEDO, "albedo", "V", "as -a albedo=V: the share that a bounce keeps"},
+    {CAP, "cap", "V", "as -a cap=V: the light's share of the sphere"},
     {NPY, "npy", NULL, "write NumPy arrays"},
     {HEX, "hex", NULL, "write hexadecimal numbers"},
-    {LIST, "list", NULL, "list the integrands"},
+    {LIST, "list", NULL, "list what is known of the integrand, or of all"},
     {0},
 };
 
@@ -19,117 +26,318 @@ static const cli_tool tool = {"koksma-eval", "INTEGRAND [FILE]...",
                               "Append an integrand's value to each point.",
                               options};
 
-enum { BLOCK = 4096 };
+enum { BLOCK = 4096, SETTINGS_MOST = 16, HITS_LEAST = 10 };
 
-static void list_integrands(void)
+/* What the command line asks for. */
+typedef struct request {
+    const koksma_integrand_row *row;
+    size_t dim, bounces; /* 0: the usual one */
+    double param[KOKSMA_PARAMS_MOST];
+    struct {
+        const char *option, *name,
+            *text; /* name NULL: part of text, or the first */
+    } settings[SETTINGS_MOST];
+    size_t count;
+} request;
+
+/* An integrand and where its values go. */
+typedef struct job {
+    const koksma_integrand_row *row;
+    koksma_integrand f;
+    koksma_facts facts;
+    koksma_form form;
+    double *x, *rows, *values;
+    size_t walks, hits; /* of the current set */
+    size_t sets, poor;  /* sets, and those with less than HITS_LEAST hits */
+    size_t worst_hits, worst_walks;
+} job;
+
+/* ---- The command line -------------------------------------------------------- */
+
+static const koksma_integrand_row *find_row(const char *name)
 {
-    if (!cli_quiet()) puts("# integrand\tdim\ta_most\tintegral\tsummary");
-    for (const koksma_integrand *f = koksma_integrands; f->name != NULL; f++)
-        printf("%s\t%zu\t%.17g\t%.17g\t%s\n", f->name, f->dim, f->a_most,
-               f->integral, f->summary);
+    const koksma_integrand_row *row = koksma_integrand_find(name);
+
+    if (row == NULL) row = koksma_scene_find(name);
+    if (row == NULL)
+        cli_usage("no integrand is called \"%s\"; --list lists them", name);
+    return row;
+}
+
+static void add_setting(request *r, const char *option, const char *name)
+{
+    if (r->count == SETTINGS_MOST)
+        cli_usage("more than %d parameters", SETTINGS_MOST);
+    r->settings[r->count].option = option;
+    r->settings[r->count].name = name;
+    r->settings[r->count++].text = optarg;
+}
+
+/* Where the row keeps the parameter whose name has that length. */
+static double *find_param(request *r, const char *name, size_t length)
+{
+    for (size_t i = 0; i < koksma_integrand_params(r->row); i++)
+        if (strlen(r->row->params[i].name) == length &&
+            strncmp(r->row->params[i].name, name, length) == 0)
+            return &r->param[i];
+    cli_usage("%s has no parameter %.*s", r->row->name, (int)length, name);
+}
+
+static void apply_settings(request *r)
+{
+    for (size_t i = 0; i < koksma_integrand_params(r->row); i++)
+        r->param[i] = r->row->params[i].usual;
+    for (size_t i = 0; i < r->count; i++) {
+        const char *name = r->settings[i].name, *text = r->settings[i].text;
+        const char *sign = name == NULL ? strchr(text, '=') : NULL;
+        double *param;
+
+        if (name != NULL)
+            param = find_param(r, name, strlen(name));
+        else if (sign != NULL)
+            param = find_param(r, text, (size_t)(sign - text));
+        else if (koksma_integrand_params(r->row) > 0)
+            param = &r->param[0];
+        else
+            cli_usage("%s has no parameters", r->row->name);
+        *param = cli_real(r->settings[i].option, sign != NULL ? sign + 1 : text,
+                          -1e300, 1e300);
+    }
+}
+
+static void apply_bounces(request *r)
+{
+    if (r->bounces == 0) return;
+    if (koksma_scene_find(r->row->name) == NULL)
+        cli_usage("%s has no bounces", r->row->name);
+    r->dim = r->row->dim_least + 2 * (r->bounces - 1);
+}
+
+/* ---- --list ------------------------------------------------------------------ */
+
+static void list_row(const koksma_integrand_row *row, size_t dim,
+                     const double *param)
+{
+    koksma_integrand f;
+    koksma_facts k;
+
+    if (koksma_integrand_make(&f, &k, row, dim, param, NULL)) return;
+
+    const double known[] = {k.integral, k.error,  k.variance, k.jump,
+                            k.jump_rms, k.area,   k.extent,   k.axes,
+                            k.box_dim,  k.pieces, k.variation};
+
+    printf("%s\t%zu\t", row->name, f.dim);
+    if (koksma_integrand_params(row) == 0) putchar('-');
+    for (size_t i = 0; i < koksma_integrand_params(row); i++) {
+        printf("%s%s=", i > 0 ? "," : "", row->params[i].name);
+        cli_number(f.param[i]);
+    }
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        putchar('\t');
+        cli_number(known[i]);
+    }
+    printf("\t%s\n", row->summary);
+}
+
+_Noreturn static void list_integrands(const request *r)
+{
+    if (!cli_quiet())
+        puts("# integrand\tdim\tparameters\tintegral\terror\tvariance\tjump\t"
+             "jump_rms\tarea\textent\taxes\tbox_dim\tpieces\tvariation\tsummary");
+    if (r->row != NULL) {
+        list_row(r->row, r->dim, r->param);
+        cli_finish(CLI_DONE);
+    }
+    for (size_t i = 0; koksma_integrands[i] != NULL; i++)
+        list_row(koksma_integrands[i], r->dim, NULL);
+    for (size_t i = 0; koksma_scenes[i] != NULL; i++)
+        list_row(koksma_scenes[i], r->dim, NULL);
     cli_finish(CLI_DONE);
 }
 
-/* What is known of the values: the tools further down need not be told. */
-static void print_comment(const koksma_integrand *f, double a, const char *about)
+/* ---- Values ------------------------------------------------------------------ */
+
+static void print_key(const char *key, double v)
 {
+    if (!isfinite(v)) return;
+    printf(" %s=", key);
+    cli_number(v);
+}
+
+/* What is known of the values: the tools further down need not be told. */
+static void print_comment(const job *j, const char *about)
+{
+    bool scene = koksma_scene_find(j->row->name) != NULL;
+
     if (cli_quiet()) return;
-    printf("# koksma:%s integrand=%s dim=%zu a=", about, f->name, f->dim);
-    cli_number(a);
-    fputs(" exact=", stdout);
-    cli_number(f->integral);
+    printf("# koksma:%s integrand=%s dim=%zu", about, j->row->name, j->f.dim);
+    if (scene) printf(" bounces=%zu", koksma_scene_bounces(&j->f));
+    for (size_t i = 0; i < koksma_integrand_params(j->row); i++)
+        print_key(j->row->params[i].name, j->f.param[i]);
+    print_key("exact", j->facts.integral);
+    if (scene) print_key("neumann", koksma_scene_neumann(&j->f));
+    print_key("variance", j->facts.variance);
+    if (j->facts.jump > 0.0) {
+        print_key("area", j->facts.area);
+        print_key("jump", j->facts.jump_rms);
+    }
     fputs("\n# ", stdout);
-    for (size_t k = 0; k < f->dim; k++)
+    for (size_t k = 0; k < j->f.dim; k++)
         printf("x%zu\t", k + 1);
-    puts(f->name);
+    puts(j->row->name);
 }
 
 /* Write one block of rows: the points, each with its value behind it. */
-static void write_block(const koksma_integrand *f, double a, const cli_input *input,
-                        const double *x, size_t count, double *rows,
-                        koksma_form form)
+static void write_block(job *j, const cli_input *input, const double *x,
+                        size_t count)
 {
-    double values[BLOCK];
+    size_t dim = j->f.dim;
     koksma_error err;
 
-    if (koksma_integrand_eval(values, f, a, (koksma_points){x, count, f->dim},
+    if (koksma_integrand_eval(j->values, &j->f, (koksma_points){x, count, dim},
                               &err))
         cli_fail_input(input, &err);
     for (size_t i = 0; i < count; i++) {
-        for (size_t k = 0; k < f->dim; k++)
-            rows[i * (f->dim + 1) + k] = x[i * f->dim + k];
-        rows[i * (f->dim + 1) + f->dim] = values[i];
+        memcpy(j->rows + i * (dim + 1), x + i * dim, dim * sizeof *x);
+        j->rows[i * (dim + 1) + dim] = j->values[i];
+        j->hits += j->values[i] != 0.0;
     }
-    if (koksma_write_rows(stdout, rows, count, f->dim + 1, form, &err))
+    j->walks += count;
+    if (koksma_write_rows(stdout, j->rows, count, dim + 1, j->form, &err))
         cli_fail_as(&err);
 }
 
 /* Text flows through block by block; an array's header wants its length first. */
-static void eval_set(const koksma_integrand *f, double a, cli_input *input,
-                     koksma_form form, double *x, double *rows)
+static void eval_set(job *j, cli_input *input)
 {
     koksma_set set = {0};
     koksma_error err;
     size_t got = 1;
 
-    if (form == KOKSMA_NPY) {
+    if (j->form == KOKSMA_NPY) {
         if (koksma_set_read(&set, input->reader, &err)) cli_fail_input(input, &err);
-        if (koksma_write_npy_header(stdout, set.n, f->dim + 1, &err))
+        if (koksma_write_npy_header(stdout, set.n, j->f.dim + 1, &err))
             cli_fail_as(&err);
         for (size_t i = 0; i < set.n; i += got) {
             got = set.n - i < BLOCK ? set.n - i : BLOCK;
-            write_block(f, a, input, set.x + i * f->dim, got, rows, form);
+            write_block(j, input, set.x + i * j->f.dim, got);
         }
         koksma_set_free(&set);
         return;
     }
     while (got > 0) {
-        if (koksma_reader_rows(input->reader, x, BLOCK, &got, &err))
+        if (koksma_reader_rows(input->reader, j->x, BLOCK, &got, &err))
             cli_fail_input(input, &err);
-        if (got > 0) write_block(f, a, input, x, got, rows, form);
+        if (got > 0) write_block(j, input, j->x, got);
     }
+}
+
+/* ---- Scenes of which too little is seen -------------------------------------- */
+
+static void count_hits(job *j)
+{
+    if (j->hits < HITS_LEAST && (j->poor == 0 || j->hits < j->worst_hits)) {
+        j->worst_hits = j->hits;
+        j->worst_walks = j->walks;
+    }
+    j->poor += j->hits < HITS_LEAST;
+    j->sets++;
+    j->hits = j->walks = 0;
+}
+
+static void note_poor_sets(const job *j)
+{
+    if (j->poor == 0 || koksma_scene_find(j->row->name) == NULL) return;
+    if (j->sets == 1)
+        cli_note("under-resolved: %zu of %zu walks hit", j->worst_hits,
+                 j->worst_walks);
+    else
+        cli_note(
+            "under-resolved: %zu of %zu sets have fewer than %d hits; in one of "
+            "them %zu of %zu walks hit",
+            j->poor, j->sets, HITS_LEAST, j->worst_hits, j->worst_walks);
+}
+
+/* ---- The tool ---------------------------------------------------------------- */
+
+/* The points say the dimension, unless it was told. */
+static void begin(job *j, const request *r, const cli_input *input, size_t columns)
+{
+    size_t dim = r->dim > 0 ? r->dim : columns;
+    koksma_error err;
+
+    if (dim != columns)
+        cli_fail("set %s has %zu coordinates a point, but %s takes %zu",
+                 input->label, columns, r->row->name, dim);
+    if (koksma_integrand_make(&j->f, &j->facts, r->row, dim, r->param, &err))
+        cli_fail("set %s has %s", input->label, err.text);
+    j->row = r->row;
+    j->x = malloc(BLOCK * dim * sizeof *j->x);
+    j->rows = malloc(BLOCK * (dim + 1) * sizeof *j->rows);
+    j->values = malloc(BLOCK * sizeof *j->values);
+    if (j->x == NULL || j->rows == NULL || j->values == NULL)
+        cli_fail("not enough memory");
+}
+
+static void eval_inputs(const request *r, cli_input *input, koksma_form form)
+{
+    job j = {.form = form};
+    size_t columns;
+
+    while (cli_next_set(input, &columns)) {
+        if (j.sets == 0) {
+            begin(&j, r, input, columns);
+            if (form != KOKSMA_NPY)
+                print_comment(&j, koksma_reader_about(input->reader));
+        } else if (columns != j.f.dim) {
+            cli_fail("set %s has %zu coordinates a point, but the first set %zu",
+                     input->label, columns, j.f.dim);
+        } else if (form != KOKSMA_NPY) {
+            putchar('\n');
+        }
+        eval_set(&j, input);
+        count_hits(&j);
+    }
+    free(j.x);
+    free(j.rows);
+    free(j.values);
+    note_poor_sets(&j);
 }
 
 int main(int argc, char *argv[])
 {
     koksma_form form = KOKSMA_DECIMAL;
-    bool started = false;
-    size_t columns;
-    double a = 0.0;
+    request r = {0};
+    bool list = false;
+    koksma_integrand f;
+    koksma_error err;
     int c;
 
     while ((c = cli_next(&tool, argc, argv)) != -1)
         switch (c) {
-        case 'a': a = cli_real("-a", optarg, 0.0, 1.0); break;
+        case 'a': add_setting(&r, "-a", NULL); break;
+        case 'd': r.dim = cli_count("-d", optarg, 1, 10000); break;
+        case BOUNCES: r.bounces = cli_count("--bounces", optarg, 1, 1000); break;
+        case ALBEDO: add_setting(&r, "--albedo", "albedo"); break;
+        case CAP: add_setting(&r, "--cap", "cap"); break;
         case NPY: form = KOKSMA_NPY; break;
         case HEX: form = KOKSMA_HEX; break;
-        case LIST: list_integrands();
+        case LIST: list = true; break;
         }
-    if (optind == argc) cli_usage("name an integrand; --list lists them");
-
-    const koksma_integrand *f = koksma_integrand_find(argv[optind]);
-
-    if (f == NULL)
-        cli_usage("no integrand is called \"%s\"; --list lists them", argv[optind]);
-    if (a > f->a_most)
-        cli_usage("%s has a from 0 to %g, not %g", f->name, f->a_most, a);
-    optind++;
+    if (optind < argc) {
+        r.row = find_row(argv[optind++]);
+        apply_settings(&r);
+        apply_bounces(&r);
+        if (koksma_integrand_make(&f, NULL, r.row, r.dim, r.param, &err))
+            cli_usage("%s", err.text);
+    } else if (!list || r.count > 0) {
+        cli_usage("name an integrand; --list lists them");
+    }
+    if (list) list_integrands(&r);
 
     cli_input input = cli_inputs(argc, argv, KOKSMA_POINTS);
-    double *x = malloc(BLOCK * f->dim * sizeof *x);
-    double *rows = malloc(BLOCK * (f->dim + 1) * sizeof *rows);
 
-    if (x == NULL || rows == NULL) cli_fail("not enough memory");
-    for (; cli_next_set(&input, &columns); started = true) {
-        if (columns != f->dim)
-            cli_fail("set %s has %zu coordinates a point, but %s takes %zu",
-                     input.label, columns, f->name, f->dim);
-        if (form != KOKSMA_NPY && started) putchar('\n');
-        if (form != KOKSMA_NPY && !started)
-            print_comment(f, a, koksma_reader_about(input.reader));
-        eval_set(f, a, &input, form, x, rows);
-    }
-    free(x);
-    free(rows);
+    eval_inputs(&r, &input, form);
     cli_finish(CLI_DONE);
 }

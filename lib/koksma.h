@@ -12,6 +12,7 @@
 #include <koksma/num.h>
 #include <koksma/points.h>
 #include <koksma/rng.h>
+#include <koksma/scene.h>
 #include <koksma/star.h>
 
 #endif

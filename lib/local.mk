@@ -8,7 +8,10 @@ noinst_LTLIBRARIES = %D%/libcore.la
   %D%/fit_line.c %D%/fit_mixture.c \
   %D%/gen.c %D%/gen.h %D%/gen_kernels.h %D%/gen_halton.c %D%/gen_plain.c \
   %D%/gen_radical.c %D%/gen_sobol.c \
-  %D%/integrand.c %D%/integrand.h \
+  %D%/integrand.c %D%/integrand.h %D%/integrand_kernels.h \
+  %D%/integrand_ball.c %D%/integrand_box.c %D%/integrand_fractal.c \
+  %D%/integrand_koch.c %D%/integrand_product.c %D%/integrand_spline.c \
+  %D%/integrand_sum.c %D%/integrand_wave.c \
   %D%/io.c %D%/io.h %D%/io_kernels.h %D%/io_about.c %D%/io_lines.c %D%/io_npy.c \
   %D%/io_number.c %D%/io_table.c %D%/io_text.c %D%/io_write.c \
   %D%/l2.c %D%/l2.h %D%/l2_kernels.h %D%/l2_cross.c %D%/l2_divide.c \
@@ -18,6 +21,7 @@ noinst_LTLIBRARIES = %D%/libcore.la
   %D%/part.c %D%/part.h \
   %D%/points.c %D%/points.h \
   %D%/rng.c %D%/rng.h \
+  %D%/scene.c %D%/scene.h %D%/scene_kernels.h \
   %D%/star.c %D%/star.h %D%/star_kernels.h %D%/star_sweep.c \
   %D%/star_best.c %D%/star_bound.c %D%/star_bound_closed.c \
   %D%/star_bound_open.c %D%/star_cell.c %D%/star_climb.c \
@@ -49,6 +53,6 @@ include_HEADERS = %D%/koksma.h
 koksmaincludedir = $(includedir)/koksma
 koksmainclude_HEADERS = \
   %D%/curve.h %D%/fit.h %D%/gen.h %D%/integrand.h %D%/io.h %D%/l2.h %D%/num.h \
-  %D%/points.h %D%/rng.h %D%/star.h
+  %D%/points.h %D%/rng.h %D%/scene.h %D%/star.h
 
 pkgconfig_DATA = %D%/koksma.pc

@@ -14,9 +14,9 @@ complain() {
 floor() {
     case $1 in
     num | num_* | points | error | student) echo 0 ;;
-    rng | io | io_* | gen | gen_* | integrand | part) echo 1 ;;
+    rng | io | io_* | gen | gen_* | integrand | integrand_* | part) echo 1 ;;
     star | star_* | l2 | l2_* | box | edge | variation | cells | curve) echo 2 ;;
-    fit | fit_* | scene | bound) echo 3 ;;
+    fit | fit_* | scene | scene_* | bound) echo 3 ;;
     koksma | config) echo any ;; # the umbrella, and what configure found out
     *) echo none ;;
     esac

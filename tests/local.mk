@@ -23,17 +23,17 @@ if HAVE_CHECK
 check_LTLIBRARIES += %D%/liboracle.la
 %C%_liboracle_la_SOURCES = \
   %D%/oracle.c %D%/oracle.h %D%/fit_fixture.h %D%/gen_fixture.h \
-  %D%/io_fixture.h %D%/paths.h \
+  %D%/integrand_fixture.h %D%/io_fixture.h %D%/paths.h \
   %D%/npy_fixture.h
 
 unit_tests = \
-  %D%/test_curve %D%/test_extra %D%/test_fit %D%/test_fit_coverage \
+  %D%/test_curve %D%/test_extra %D%/test_facts %D%/test_fit %D%/test_fit_coverage \
   %D%/test_fit_judge %D%/test_fit_mixture %D%/test_fit_rules \
-  %D%/test_gen %D%/test_gen_digits \
+  %D%/test_fractals %D%/test_gen %D%/test_gen_digits \
   %D%/test_integrand %D%/test_io %D%/test_io_npy %D%/test_io_npy_bad \
   %D%/test_io_number %D%/test_io_reader %D%/test_io_table %D%/test_io_write \
   %D%/test_known %D%/test_l2 %D%/test_num %D%/test_part %D%/test_points \
-  %D%/test_rng %D%/test_star %D%/test_star_bound %D%/test_star_lines \
+  %D%/test_rng %D%/test_scene %D%/test_shapes %D%/test_star %D%/test_star_bound %D%/test_star_lines \
   %D%/test_star_methods %D%/test_star_search %D%/test_star_threads
 LDADD = %D%/liboracle.la lib/libcore.la $(CHECK_LIBS)
 
@@ -119,7 +119,7 @@ clean-fuzz:
 
 benches = \
   %D%/bench_gen %D%/bench_io %D%/bench_star %D%/bench_star_trade %D%/bench_l2 \
-  %D%/bench_fit
+  %D%/bench_fit %D%/bench_integrand
 EXTRA_PROGRAMS += $(benches)
 CLEANFILES     += $(benches)
 %C%_bench_gen_SOURCES  = %D%/bench_gen.c %D%/bench.h
@@ -134,6 +134,8 @@ CLEANFILES     += $(benches)
 %C%_bench_l2_LDADD     = lib/libcore.la
 %C%_bench_fit_SOURCES  = %D%/bench_fit.c %D%/bench.h %D%/paths.h
 %C%_bench_fit_LDADD    = lib/libcore.la
+%C%_bench_integrand_SOURCES = %D%/bench_integrand.c %D%/bench.h
+%C%_bench_integrand_LDADD   = lib/libcore.la
 
 .PHONY: bench
 bench: $(benches)

@@ -33,28 +33,31 @@ static inline void path_add(double *xs, double *ys, size_t *sets,
                             koksma_fit_data *d, path_kind kind, size_t replicate)
 {
     const koksma_gen_family *family = koksma_gen_find(kind.family);
-    const koksma_integrand *f = koksma_integrand_find(kind.integrand);
-    koksma_gen_opts o = {.dim = f->dim,
+    const koksma_integrand_row *integrand = koksma_integrand_find(kind.integrand);
+    koksma_gen_opts o = {.dim = integrand->dim,
                          .n = kind.n,
                          .scramble = family->random ? KOKSMA_SCRAMBLE_NONE
                                                     : KOKSMA_SCRAMBLE_DIGITS,
                          .seed = kind.seed,
                          .replicate = replicate};
-    double *x = malloc(PATH_BLOCK * f->dim * sizeof *x), values[PATH_BLOCK];
+    double *x = malloc(PATH_BLOCK * o.dim * sizeof *x), values[PATH_BLOCK];
     const koksma_curve_row *row;
+    koksma_integrand f;
+    koksma_facts facts;
     koksma_curve *c;
     koksma_gen *g;
     size_t count;
 
     path_must(x == NULL);
+    path_must((int)koksma_integrand_make(&f, &facts, integrand, 0, &kind.a, NULL));
     path_must((int)koksma_gen_open(&g, family, &o, NULL));
     path_must((int)koksma_curve_open(&c, 2, NULL));
-    koksma_curve_begin(c, f->integral);
+    koksma_curve_begin(c, facts.integral);
     for (uint64_t i = 0; i < kind.n; i += count) {
         count = kind.n - i < PATH_BLOCK ? (size_t)(kind.n - i) : PATH_BLOCK;
         path_must((int)koksma_gen_fill(g, x, i, count, NULL));
         path_must((int)koksma_integrand_eval(
-            values, f, kind.a, (koksma_points){x, count, f->dim}, NULL));
+            values, &f, (koksma_points){x, count, o.dim}, NULL));
         koksma_curve_add(c, values, 1, count);
     }
     path_must((int)koksma_curve_rows(c, &row, &count, NULL));

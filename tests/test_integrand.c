@@ -42,17 +42,29 @@ static double formula(const double *x, size_t dim, double a)
     return (double)(p * sum + (dim == 2 ? 1.0L - 2.0L * p : 0.6L - 1.8L * p));
 }
 
-static double evaluate(const char *name, const double *x, double a)
+static koksma_integrand make(const char *name, double a, koksma_facts *facts)
 {
-    const koksma_integrand *f = koksma_integrand_find(name);
+    koksma_integrand f;
     koksma_error err = {0};
-    double v = 7.0;
     koksma_status status =
-        koksma_integrand_eval(&v, f, a, (koksma_points){x, 1, f->dim}, &err);
+        koksma_integrand_make(&f, facts, koksma_integrand_find(name), 0, &a, &err);
 
     ck_assert_msg(status == KOKSMA_OK, "%s", err.text);
+    return f;
+}
+
+static double evaluate(const char *name, const double *x, double a)
+{
+    koksma_integrand f = make(name, a, NULL);
+    double v = 7.0;
+
+    ck_assert_int_eq(
+        koksma_integrand_eval(&v, &f, (koksma_points){x, 1, f.dim}, NULL),
+        KOKSMA_OK);
     return v;
 }
+
+static const char *const jumping[] = {"f2", "f3"};
 
 static void check_point(const double *x, size_t dim, double a)
 {
@@ -172,103 +184,204 @@ END_TEST
  * exactly by midpoints, so nothing is off where there is no jump. */
 START_TEST(integrals)
 {
-    static double x[3 * 40 * 40 * 40], f[40 * 40 * 40];
+    static double x[3 * 240 * 240], values[240 * 240];
 
-    for (const koksma_integrand *g = koksma_integrands; g->name != NULL; g++)
-        for (size_t m = g->dim == 2 ? 39 : 20; m <= (g->dim == 2 ? 240 : 40);
-             m += 7)
-            for (int i = 0; i <= 4; i++) {
-                double a = g->a_most * i / 4.0, mean = 0.0;
-                size_t n = 1;
+    for (size_t m = 20; m <= 240; m += m < 40 ? 7 : 29)
+        for (int i = 0; i <= 9; i++) {
+            const koksma_integrand_row *row = koksma_integrand_find(jumping[i / 5]);
+            double a = row->params[0].most * (i % 5) / 4.0, mean = 0.0;
+            koksma_facts facts;
+            koksma_integrand f = make(row->name, a, &facts);
+            size_t n = f.dim == 2 ? m * m : m * m * m;
 
-                for (size_t k = 0; k < g->dim; k++)
-                    n *= m;
-                for (size_t j = 0; j < n; j++)
-                    for (size_t k = 0, c = j; k < g->dim; k++, c /= m)
-                        x[j * g->dim + k] = ((double)(c % m) + 0.5) / (double)m;
-                ck_assert_int_eq(koksma_integrand_eval(
-                                     f, g, a, (koksma_points){x, n, g->dim}, NULL),
-                                 KOKSMA_OK);
-                for (size_t j = 0; j < n; j++)
-                    mean += f[j] / (double)n;
-                ck_assert_double_eq_tol(mean, g->integral,
-                                        1.5 * g->jump(a) / (double)m + 1e-12);
-            }
-}
-END_TEST
-
-START_TEST(table_of_integrands)
-{
-    const koksma_integrand *f2 = koksma_integrand_find("f2");
-    const koksma_integrand *f3 = koksma_integrand_find("f3");
-    size_t count = 0;
-
-    for (const koksma_integrand *f = koksma_integrands; f->name != NULL; f++) {
-        ck_assert_ptr_eq(koksma_integrand_find(f->name), f);
-        ck_assert_uint_gt(strlen(f->summary), 0);
-        ck_assert(f->integral == 0.5);
-        count++;
-    }
-    ck_assert_uint_eq(count, 2);
-    ck_assert_ptr_null(koksma_integrand_find(""));
-    ck_assert_ptr_null(koksma_integrand_find("f"));
-    ck_assert(f2->dim == 2 && f2->a_most == 0.5);
-    ck_assert(f3->dim == 3 && f3->a_most == 1.0 / 3.0);
-    ck_assert(f2->jump(0.0) == 1.0 && f2->jump(0.125) == 0.75);
-    ck_assert(f2->jump(0.5) == 0.0 && f3->jump(0.0) == 0.6);
-    ck_assert_double_eq_tol(f3->jump(0.25), 0.15, 1e-15);
-    ck_assert(f3->jump(f3->a_most) >= 0.0 && f3->jump(f3->a_most) < 1e-15);
-}
-END_TEST
-
-/* The jump is what the value does across the discontinuity. */
-START_TEST(jumps)
-{
-    for (const koksma_integrand *f = koksma_integrands; f->name != NULL; f++)
-        for (int i = 0; i <= 8; i++) {
-            double a = f->a_most * i / 8.0;
-            double on[3] = {0.5, 0.5, 0.0}, above[3] = {0.5, 0.5 + 0x1p-53, 0.0};
-
-            ck_assert_double_eq_tol(f->value(above, a) - f->value(on, a),
-                                    f->jump(a), 1e-15);
+            if (f.dim == 3 && m > 40) continue;
+            for (size_t j = 0; j < n; j++)
+                for (size_t k = 0, c = j; k < f.dim; k++, c /= m)
+                    x[j * f.dim + k] = ((double)(c % m) + 0.5) / (double)m;
+            ck_assert_int_eq(koksma_integrand_eval(
+                                 values, &f, (koksma_points){x, n, f.dim}, NULL),
+                             KOKSMA_OK);
+            for (size_t j = 0; j < n; j++)
+                mean += values[j] / (double)n;
+            ck_assert_double_eq_tol(mean, facts.integral,
+                                    1.5 * facts.jump / (double)m + 1e-12);
         }
 }
 END_TEST
 
-static void check_refused(const char *name, double a, koksma_points p,
-                          koksma_status want, const char *text)
+START_TEST(facts_of_f2_and_f3)
 {
+    koksma_facts k;
+
+    for (int i = 0; i < 10; i++) {
+        double most = koksma_integrand_find(jumping[i / 5])->params[0].most;
+
+        make(jumping[i / 5], most * (i % 5) / 4.0, &k);
+        ck_assert(k.integral == 0.5 && k.error == 0.0);
+        ck_assert((k.jump == 0.0) == (i % 5 == 4));
+        ck_assert((k.variation < HUGE_VAL) == (i % 5 == 4));
+    }
+    make("f2", 0.0, &k);
+    ck_assert(k.jump == 1.0 && k.variance == 0.25 && k.extent == 2.0);
+    make("f2", 0.125, &k);
+    ck_assert(k.jump == 0.75 && k.jump_rms == 0.75 && k.pieces == 2.0);
+    make("f2", 0.5, &k);
+    ck_assert(k.variation == 1.0 && k.extent == 0.0 && k.pieces == 1.0);
+    make("f3", 0.0, &k);
+    ck_assert(k.jump == 0.6 && k.extent == 1.5 && k.axes == 3.0 &&
+              k.box_dim == 2.0);
+    make("f3", 0.25, &k);
+    ck_assert_double_eq_tol(k.jump, 0.15, 1e-15);
+    make("f3", 1.0 / 3.0, &k);
+    ck_assert(k.variation == 1.0 && k.area == 0.0 && k.axes == 0.0);
+}
+END_TEST
+
+/* The jump is what the value does across the discontinuity, and the pieces are
+ * what it separates. */
+START_TEST(jumps)
+{
+    for (int i = 0; i < 18; i++) {
+        double a =
+            koksma_integrand_find(jumping[i / 9])->params[0].most * (i % 9) / 8.0;
+        double on[3] = {0.5, 0.5, 0.0}, above[3] = {0.5, 0.5 + 0x1p-53, 0.0};
+        koksma_facts facts;
+        koksma_integrand f = make(jumping[i / 9], a, &facts);
+
+        ck_assert_double_eq_tol(f.value(&f, above) - f.value(&f, on), facts.jump,
+                                1e-15);
+        ck_assert_uint_eq(f.piece(&f, on), 0);
+        ck_assert_uint_eq(f.piece(&f, above), facts.jump > 0.0);
+    }
+}
+END_TEST
+
+/* ---- The table and its calls ------------------------------------------------- */
+
+START_TEST(table_of_integrands)
+{
+    size_t count = 0;
+
+    for (; koksma_integrands[count] != NULL; count++) {
+        const koksma_integrand_row *row = koksma_integrands[count];
+
+        ck_assert_ptr_eq(koksma_integrand_find(row->name), row);
+        ck_assert_uint_gt(strlen(row->summary), 0);
+        ck_assert(row->dim_least <= row->dim && row->dim <= row->dim_most);
+        ck_assert_ptr_nonnull(row->functions.value);
+        ck_assert_ptr_nonnull(row->functions.piece);
+    }
+    ck_assert_uint_eq(count, 18);
+    ck_assert_ptr_null(koksma_integrand_find(""));
+    ck_assert_ptr_null(koksma_integrand_find("f"));
+    ck_assert_uint_eq(koksma_integrand_params(koksma_integrand_find("f2")), 1);
+    ck_assert_uint_eq(koksma_integrand_params(koksma_integrand_find("sum")), 0);
+    ck_assert_uint_eq(koksma_integrand_params(koksma_integrand_find("gaussian")),
+                      2);
+}
+END_TEST
+
+/* No parameters given stand for the usual ones, and dim 0 for the usual one. */
+START_TEST(defaults)
+{
+    for (size_t i = 0; koksma_integrands[i] != NULL; i++) {
+        const koksma_integrand_row *row = koksma_integrands[i];
+        double usual[KOKSMA_PARAMS_MOST] = {0.0}, x[3] = {0.3, 0.4, 0.1};
+        koksma_integrand f, g;
+        koksma_facts a, b;
+
+        for (size_t k = 0; k < koksma_integrand_params(row); k++)
+            usual[k] = row->params[k].usual;
+        ck_assert_int_eq(koksma_integrand_make(&f, &a, row, 0, NULL, NULL),
+                         KOKSMA_OK);
+        ck_assert_int_eq(koksma_integrand_make(&g, &b, row, row->dim, usual, NULL),
+                         KOKSMA_OK);
+        ck_assert_uint_eq(f.dim, row->dim);
+        ck_assert(f.value(&f, x) == g.value(&g, x) && a.integral == b.integral);
+    }
+}
+END_TEST
+
+static void check_make_refused(const char *name, size_t dim, double first,
+                               double second, koksma_status want, const char *text)
+{
+    koksma_integrand f = {.dim = 77};
+    koksma_facts facts = {.integral = 7.0};
+    const double param[KOKSMA_PARAMS_MOST] = {first, second};
+    koksma_error err = {0};
+    const koksma_integrand_row *row = koksma_integrand_find(name);
+
+    ck_assert_int_eq(koksma_integrand_make(&f, &facts, row, dim, param, &err),
+                     want);
+    ck_assert_int_eq(err.status, want);
+    ck_assert_msg(strstr(err.text, text) != NULL, "%s", err.text);
+    ck_assert_int_eq(koksma_integrand_make(&f, NULL, row, dim, param, NULL), want);
+    ck_assert(f.dim == 77 && facts.integral == 7.0);
+}
+
+START_TEST(refused_parameters)
+{
+    double nan = (double)NAN, inf = (double)INFINITY;
+
+    check_make_refused("f2", 0, nan, 0, KOKSMA_EDOMAIN, "not nan");
+    check_make_refused("f2", 0, -0x1p-1074, 0, KOKSMA_EDOMAIN, "from 0 to 0.5");
+    check_make_refused("f2", 0, nextafter(0.5, 1.0), 0, KOKSMA_EDOMAIN, "f2 has a");
+    check_make_refused("f2", 0, inf, 0, KOKSMA_EDOMAIN, "inf");
+    check_make_refused("f3", 0, nextafter(1.0 / 3.0, 1.0), 0, KOKSMA_EDOMAIN, "f3");
+    check_make_refused("gaussian", 0, 5.0, 1.5, KOKSMA_EDOMAIN,
+                       "has w from 0 to 1");
+    check_make_refused("fractal2", 0, 24.0, 1.0, KOKSMA_EDOMAIN, "from 1 to 23");
+    check_make_refused("fractal2", 0, 2.5, 1.0, KOKSMA_EDOMAIN, "a whole number");
+    check_make_refused("f2", 3, 0, 0, KOKSMA_EINVAL, "but f2 takes 2");
+    check_make_refused("ball", 1, 0.3, 0, KOKSMA_EINVAL, "takes from 2 to");
+    check_make_refused("ball", 21, 0.3, 0, KOKSMA_EINVAL, "21 coordinates");
+}
+END_TEST
+
+static double hyperbola(const koksma_integrand *f, const double *x)
+{
+    return x[0] * x[1] < *(const double *)f->state;
+}
+
+/* A function of one's own takes a dim and a value. */
+START_TEST(own_integrand)
+{
+    double level = 0.25, x[] = {0.5, 0.5, 0.125, 1.0, 0.75, 0.25}, v[3];
+    koksma_integrand f = {.dim = 2, .value = hyperbola, .state = &level};
+
+    ck_assert_int_eq(koksma_integrand_eval(v, &f, (koksma_points){x, 3, 2}, NULL),
+                     KOKSMA_OK);
+    ck_assert(v[0] == 0.0 && v[1] == 1.0 && v[2] == 1.0);
+}
+END_TEST
+
+static void check_refused(const char *name, koksma_points p, koksma_status want,
+                          const char *text)
+{
+    koksma_integrand g = make(name, 0.0, NULL);
     double f[2] = {7.0, 8.0};
     koksma_error err = {0};
 
-    ck_assert_int_eq(
-        koksma_integrand_eval(f, koksma_integrand_find(name), a, p, &err), want);
+    ck_assert_int_eq(koksma_integrand_eval(f, &g, p, &err), want);
     ck_assert_int_eq(err.status, want);
     ck_assert_ptr_nonnull(strstr(err.text, text));
-    ck_assert_int_eq(
-        koksma_integrand_eval(f, koksma_integrand_find(name), a, p, NULL), want);
+    ck_assert_int_eq(koksma_integrand_eval(f, &g, p, NULL), want);
     ck_assert(f[0] == 7.0 && f[1] == 8.0);
 }
 
-START_TEST(refused)
+START_TEST(refused_points)
 {
     double x[6] = {0.0, 1.0, 0.5, 0.5, 0.25, 0.75};
     const koksma_points two = {x, 2, 2}, three = {x, 2, 3};
 
-    check_refused("f2", 0.0, three, KOKSMA_EINVAL, "f2 takes 2");
-    check_refused("f3", 0.0, two, KOKSMA_EINVAL, "f3 takes 3");
-    check_refused("f3", 0.0, (koksma_points){x, 2, 1}, KOKSMA_EINVAL, "f3 takes 3");
-    check_refused("f2", (double)NAN, two, KOKSMA_EDOMAIN, "nan");
-    check_refused("f2", -0x1p-1074, two, KOKSMA_EDOMAIN, "[0,0.5]");
-    check_refused("f2", nextafter(0.5, 1.0), two, KOKSMA_EDOMAIN, "[0,0.5]");
-    check_refused("f2", (double)INFINITY, two, KOKSMA_EDOMAIN, "inf");
-    check_refused("f3", nextafter(1.0 / 3.0, 1.0), three, KOKSMA_EDOMAIN, "f3");
-    check_refused("f3", 0.5, three, KOKSMA_EDOMAIN, "a is 0.5");
-    check_refused("f2", 0.0, (koksma_points){x, 0, 2}, KOKSMA_EINVAL, "0 points");
+    check_refused("f2", three, KOKSMA_EINVAL, "3 coordinates a point");
+    check_refused("f3", two, KOKSMA_EINVAL, "takes 3");
+    check_refused("f3", (koksma_points){x, 2, 1}, KOKSMA_EINVAL, "takes 3");
+    check_refused("f2", (koksma_points){x, 0, 2}, KOKSMA_EINVAL, "0 points");
     x[3] = 1.5;
-    check_refused("f2", 0.0, two, KOKSMA_EDOMAIN, "coordinate 2 of point 2 is 1.5");
+    check_refused("f2", two, KOKSMA_EDOMAIN, "coordinate 2 of point 2 is 1.5");
     x[3] = (double)NAN;
-    check_refused("f3", 0.0, three, KOKSMA_EDOMAIN, "coordinate 1 of point 2");
+    check_refused("f3", three, KOKSMA_EDOMAIN, "coordinate 1 of point 2");
 }
 END_TEST
 
@@ -283,11 +396,15 @@ int main(void)
     tcase_add_test(tc, sides_of_f3);
     tcase_add_test(tc, random_points);
     tcase_add_test(tc, integrals);
+    tcase_add_test(tc, facts_of_f2_and_f3);
     tcase_add_test(tc, jumps);
 
     tc = tcase_create("calls");
     suite_add_tcase(suite, tc);
     tcase_add_test(tc, table_of_integrands);
-    tcase_add_test(tc, refused);
+    tcase_add_test(tc, defaults);
+    tcase_add_test(tc, refused_parameters);
+    tcase_add_test(tc, own_integrand);
+    tcase_add_test(tc, refused_points);
     return oracle_run(suite);
 }

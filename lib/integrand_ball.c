@@ -1,0 +1,104 @@
+/* The indicator of a ball round the centre of the cube. */
+#include <float.h>
+#include <math.h>
+
+#include "integrand_kernels.h"
+#include "num_kernels.h"
+
+enum { R };
+
+/* 3 dim + 3 terms are added exactly. */
+enum { DIM_MOST = (KI_SIGN_TERMS - 3) / 3 };
+
+/* x^2 as two terms.  fma gives the rest without error unless it underflows. */
+static void square(double *term, double x)
+{
+    term[0] = x * x;
+    term[1] = fma(x, x, -term[0]);
+}
+
+/* The sign of |x - (1/2,...,1/2)|^2 - r^2 = sum (x^2 - x) + dim/4 - r^2, exactly.
+ * Distances in doubles decide where they are further apart than they can be
+ * wrong: dim + 2 roundings of what is below 5. */
+static int side_of(const koksma_integrand *f, const double *x)
+{
+    double r = f->param[R], apart = -r * r, term[KI_SIGN_TERMS];
+    size_t dim = f->dim, count = 0;
+
+    for (size_t k = 0; k < dim; k++)
+        apart += (x[k] - 0.5) * (x[k] - 0.5);
+    if (fabs(apart) > 0x1p-44) return apart > 0.0 ? 1 : -1;
+    for (size_t k = 0; k < dim; k++, count += 3) {
+        square(term + count, x[k]);
+        term[count + 2] = -x[k];
+    }
+    square(term + count, r);
+    term[count] = -term[count];
+    term[count + 1] = -term[count + 1];
+    term[count + 2] = (double)dim / 4.0;
+    return ki_sum_sign(term, count + 3);
+}
+
+static double value(const koksma_integrand *f, const double *x)
+{
+    return side_of(f, x) <= 0;
+}
+
+/* Whether upper is at least as far from 1/2 as lower, exactly. */
+static bool upper_is_far(double lower, double upper)
+{
+    const double term[] = {lower, upper, -1.0};
+
+    return ki_sum_sign(term, 3) >= 0;
+}
+
+/* The nearest and the farthest point of the box decide. */
+static koksma_range range(const koksma_integrand *f, const double *lower,
+                          const double *upper)
+{
+    double near[DIM_MOST], far[DIM_MOST];
+    bool meets, within;
+
+    for (size_t k = 0; k < f->dim; k++) {
+        near[k] = fmin(fmax(0.5, lower[k]), upper[k]);
+        far[k] = upper_is_far(lower[k], upper[k]) ? upper[k] : lower[k];
+    }
+    meets = side_of(f, near) < 0;
+    within = side_of(f, far) <= 0;
+    return (koksma_range){{within ? 1.0 : 0.0, meets ? 1.0 : 0.0},
+                          meets && !within};
+}
+
+/* Balls of radius 1: V_dim = 2 pi/dim V_(dim-2). */
+static double unit_ball(size_t dim)
+{
+    const double pi = 3.14159265358979323846;
+    double v = dim % 2 == 0 ? 1.0 : 2.0;
+
+    for (size_t k = dim % 2 + 2; k <= dim; k += 2)
+        v *= 2.0 * pi / (double)k;
+    return v;
+}
+
+/* The sphere is the derivative of the ball by r, and covers its shadow twice. */
+static void facts(koksma_facts *out, const koksma_integrand *f)
+{
+    double dim = (double)f->dim, r = f->param[R], face = pow(r, dim - 1.0);
+    double volume = unit_ball(f->dim) * face * r;
+
+    *out = ki_facts_indicator(volume, 2.0 * (dim + 2.0) * DBL_EPSILON * volume,
+                              dim * unit_ball(f->dim) * face,
+                              2.0 * dim * unit_ball(f->dim - 1) * face, f->dim);
+}
+
+const koksma_integrand_row ki_row_ball = {
+    .name = "ball",
+    .summary = "1 within r of the centre of the cube",
+    .dim = 2,
+    .dim_least = 2,
+    .dim_most = DIM_MOST,
+    .dim_step = 1,
+    .params = {{"r", 0.4, 0x1p-20, 0.5, KOKSMA_CLOSED}},
+    .functions = {.value = value, .piece = ki_piece_by_value, .range = range},
+    .facts = facts,
+};

@@ -1,0 +1,55 @@
+/* The indicator of a box at the origin. */
+#include <float.h>
+#include <math.h>
+
+#include "integrand_kernels.h"
+
+enum { C };
+
+static double value(const koksma_integrand *f, const double *x)
+{
+    for (size_t k = 0; k < f->dim; k++)
+        if (x[k] > f->param[C]) return 0.0;
+    return 1.0;
+}
+
+static koksma_range range(const koksma_integrand *f, const double *lower,
+                          const double *upper)
+{
+    double c = f->param[C];
+    bool meets = true, within = true;
+
+    for (size_t k = 0; k < f->dim; k++) {
+        meets = meets && lower[k] < c;
+        within = within && upper[k] <= c;
+    }
+    return (koksma_range){{within ? 1.0 : 0.0, meets ? 1.0 : 0.0},
+                          meets && !within};
+}
+
+static void facts(koksma_facts *out, const koksma_integrand *f)
+{
+    double dim = (double)f->dim, c = f->param[C], sides = pow(c, dim - 1.0);
+    double volume = c * sides,
+           error = f->dim == 1 ? 0.0 : 2.0 * DBL_EPSILON * volume;
+
+    *out = ki_facts_smooth(volume, error);
+    if (c > 0.0 && c < 1.0) {
+        *out = ki_facts_indicator(volume, error, dim * sides, dim * sides, f->dim);
+        out->axes = 1.0;
+    }
+    out->variance = volume * (1.0 - volume);
+    out->variation = c < 1.0 ? 1.0 : 0.0;
+}
+
+const koksma_integrand_row ki_row_box = {
+    .name = "box",
+    .summary = "1 where every coordinate is at most c",
+    .dim = 2,
+    .dim_least = 1,
+    .dim_most = 50,
+    .dim_step = 1,
+    .params = {{"c", 0.7, 0.0, 1.0, KOKSMA_CLOSED}},
+    .functions = {.value = value, .piece = ki_piece_by_value, .range = range},
+    .facts = facts,
+};

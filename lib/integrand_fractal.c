@@ -1,0 +1,116 @@
+/* The indicator of a random hierarchical fractal: cells of a 5^dim grid are in, out
+ * or divided again, and how many are what is the same in every one. */
+#include <float.h>
+#include <math.h>
+#include <stdint.h>
+
+#include "integrand_kernels.h"
+#include "rng.h"
+
+enum { M, PATTERN };
+
+/* 5^26 is the last power of 5 below 2^61. */
+enum { LEVELS = 26, BITS = 61 };
+
+static const uint64_t UNIT = (uint64_t)1 << BITS;
+
+/* 5^dim, dim 2 or 3. */
+static size_t subcells(size_t dim) { return dim == 2 ? 25 : 125; }
+
+/* The share of the set in any cell: in + m A of the subcells' A's. */
+static double share(const koksma_integrand *f)
+{
+    size_t others = subcells(f->dim) - (size_t)f->param[M];
+
+    return (double)(others / 2) / (double)others;
+}
+
+/* The number, from 0, of the subcell that x is in; x becomes the place inside it.
+ * Multiples of 2^-61 are split exactly. */
+static size_t enter(uint64_t *x, size_t dim)
+{
+    size_t cell = 0;
+
+    for (size_t k = 0; k < dim; k++) {
+        cell = 5 * cell + (size_t)(5 * x[k] >> BITS);
+        x[k] = 5 * x[k] & (UNIT - 1);
+    }
+    return cell;
+}
+
+/* How many subcells drew less than this one: a random permutation. */
+static size_t rank_of(koksma_rng parent, size_t cells, uint64_t drawn)
+{
+    size_t rank = 0;
+
+    for (size_t i = 0; i < cells; i++)
+        rank += koksma_rng_next(&parent) < drawn;
+    return rank;
+}
+
+/* What a subcell draws is its rank and the seed of its own subcells.  Below the
+ * last level a coin decides that lands as the share says, so that not even what
+ * cannot be resolved is biased. */
+static double value(const koksma_integrand *f, const double *x)
+{
+    size_t cells = subcells(f->dim), divided = (size_t)f->param[M];
+    koksma_rng rng = koksma_rng_seed((uint64_t)f->param[PATTERN], 0);
+    uint64_t place[3];
+
+    for (size_t k = 0; k < f->dim; k++)
+        place[k] = x[k] < 1.0 ? (uint64_t)(x[k] * 0x1p61) : UNIT - 1;
+    for (int level = 0; level < LEVELS; level++) {
+        koksma_rng own = rng;
+        uint64_t drawn;
+        size_t rank;
+
+        koksma_rng_skip(&own, enter(place, f->dim));
+        drawn = koksma_rng_next(&own);
+        rank = rank_of(rng, cells, drawn);
+        if (rank >= divided) return rank < divided + (cells - divided) / 2;
+        rng = (koksma_rng){drawn};
+    }
+    return koksma_rng_unit(&rng) < share(f);
+}
+
+/* Every divided cell has some of the set and some of its complement, so its inside
+ * holds boundary in proportion to its face; above 5^(dim-1) of them, that adds up
+ * to infinity, and an indicator of infinite perimeter is not of bounded
+ * variation. */
+static void facts(koksma_facts *out, const koksma_integrand *f)
+{
+    double dim = (double)f->dim, faces = f->dim == 2 ? 5.0 : 25.0;
+    double length = f->param[M] > faces ? (double)INFINITY : (double)NAN;
+    double in = share(f);
+
+    *out = ki_facts_indicator(in, 0.5 * DBL_EPSILON * in, length, length, f->dim);
+    out->axes = (double)NAN;
+    out->box_dim = fmax(dim - 1.0, log(f->param[M]) / log(5.0));
+    out->variation = length;
+}
+
+const koksma_integrand_row ki_row_fractal2 = {
+    .name = "fractal2",
+    .summary = "1 in a random fractal, m of 25 cells divided",
+    .dim = 2,
+    .dim_least = 2,
+    .dim_most = 2,
+    .dim_step = 1,
+    .params = {{"m", 9.0, 1.0, 23.0, KOKSMA_WHOLE},
+               {"pattern", 1.0, 0.0, 0x1p53, KOKSMA_WHOLE}},
+    .functions = {.value = value, .piece = ki_piece_by_value},
+    .facts = facts,
+};
+
+const koksma_integrand_row ki_row_fractal3 = {
+    .name = "fractal3",
+    .summary = "1 in a random fractal, m of 125 cells divided",
+    .dim = 3,
+    .dim_least = 3,
+    .dim_most = 3,
+    .dim_step = 1,
+    .params = {{"m", 41.0, 1.0, 123.0, KOKSMA_WHOLE},
+               {"pattern", 1.0, 0.0, 0x1p53, KOKSMA_WHOLE}},
+    .functions = {.value = value, .piece = ki_piece_by_value},
+    .facts = facts,
+};

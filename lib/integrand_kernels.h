@@ -1,0 +1,44 @@
+#ifndef KI_INTEGRAND_KERNELS_H
+#define KI_INTEGRAND_KERNELS_H
+
+#include "integrand.h"
+
+/* Private: the rows of koksma_integrands, each in the file of its kernel, and
+ * what those files share. */
+
+/* integrand_sum.c */
+extern const koksma_integrand_row ki_row_f2, ki_row_f3, ki_row_halfspace,
+    ki_row_simplex, ki_row_mixture, ki_row_sum;
+
+/* integrand_product.c */
+extern const koksma_integrand_row ki_row_product, ki_row_product_peak,
+    ki_row_gaussian, ki_row_continuous, ki_row_discontinuous;
+
+/* integrand_wave.c, _box.c, _ball.c, _koch.c, _fractal.c */
+extern const koksma_integrand_row ki_row_oscillatory, ki_row_corner_peak,
+    ki_row_box, ki_row_ball, ki_row_koch, ki_row_fractal2, ki_row_fractal3;
+
+/* Where there is no jump: one piece, zeros, and NaN for the rest. */
+koksma_facts ki_facts_smooth(double integral, double error);
+
+/* A set of that measure, and the (dim-1)-measures of its boundary in the cube. */
+koksma_facts ki_facts_indicator(double measure, double error, double area,
+                                double extent, size_t dim);
+
+/* The piece of what has one, and of what is 1 in one of its two and 0 in the
+ * other. */
+size_t ki_piece_only(const koksma_integrand *f, const double *x);
+size_t ki_piece_by_value(const koksma_integrand *f, const double *x);
+
+/* integrand_spline.c: the sum s of dim uniform numbers, dim <= KI_SUM_DIM_MOST.
+ * All are off by no more than 8 (dim + 2) DBL_EPSILON, relatively. */
+enum { KI_SUM_DIM_MOST = 31 };
+
+/* b[i] = f_n(x - i), i = 0, ..., n, where f_n is the density of n of them. */
+void ki_sum_densities(double *b, double x, size_t n);
+
+/* P(s > t), and the covariance of s and [s > t]; 0 <= t <= dim. */
+double ki_sum_share_above(double t, size_t dim);
+double ki_sum_covariance(double t, size_t dim);
+
+#endif
