@@ -54,10 +54,11 @@ check-big:
 	CK_EXCLUDE_TAGS=none KOKSMA_TEST_SCALE=$${KOKSMA_TEST_SCALE-20} $(MAKE) check
 
 # CK_FORK=no, and libtool's execute mode: valgrind is to see the test and not the
-# shell script that libtool puts in front of it.  Cases tagged slow are left out.
+# shell script that libtool puts in front of it.  Cases tagged slow are left out, and
+# those of many threads, which it runs one at a time.
 check-valgrind: $(check_PROGRAMS)
 	for test in $(unit_tests); do \
-	  CK_FORK=no CK_EXCLUDE_TAGS='big slow' top_srcdir='$(top_srcdir)' KOKSMA_EXTRA_SETS= \
+	  CK_FORK=no CK_EXCLUDE_TAGS='big slow threads' top_srcdir='$(top_srcdir)' KOKSMA_EXTRA_SETS= \
 	    $(LIBTOOL) --mode=execute $(VALGRIND) -q --error-exitcode=9 --leak-check=full \
 	    ./$$test || [ $$? -eq 77 ] || exit 1; \
 	done

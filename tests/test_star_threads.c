@@ -355,9 +355,10 @@ int main(void)
     Suite *suite = suite_create("star_threads");
     TCase *tc = tcase_create("options");
 
-    add_tests(suite, "threads", same_bits_for_any_threads);
-    add_tests(suite, "shrinking", intervals_shrink);
-    add_tests(suite, "stopping", stopped_anywhere);
+    tcase_set_tags(add_tests(suite, "threads", same_bits_for_any_threads),
+                   "threads");
+    tcase_set_tags(add_tests(suite, "shrinking", intervals_shrink), "threads");
+    tcase_set_tags(add_tests(suite, "stopping", stopped_anywhere), "threads");
     tcase_set_tags(add_tests(suite, "parts", parts_make_the_whole), "slow");
     tcase_set_tags(add_tests(suite, "tolerance", parts_with_a_tolerance), "slow");
     tcase_add_test(tc, refused_parts);
