@@ -96,7 +96,7 @@ static void pass(search *s, bool scout)
     }
     if (!ki_lines_make_tasks(&s->tasks, s->worker, enough_tasks(s)))
         ki_run_give_up(&s->run);
-    if (s->parts > 1) ki_lines_deal_tasks(&s->tasks, s->part, s->parts);
+    if (s->parts > 1 && scout) ki_lines_deal_tasks(&s->tasks, s->part, s->parts);
     ki_team_run(s->run.team, s->tasks.count, work_on, s);
     ki_lines_tasks_free(&s->tasks);
 }
