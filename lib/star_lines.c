@@ -102,7 +102,7 @@ static void pass(search *s, bool scout)
 }
 
 /* A scout first; where the answer is to be exact, whoever may be the witness is
- * then looked at again. */
+ * then looked at again; each share does that for what its own scouts have found. */
 static void search_stage(void *state)
 {
     search *s = state;
