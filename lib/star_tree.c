@@ -8,7 +8,7 @@
 #include "star_tree_kernels.h"
 
 /* The whole search: stages, each of which proves a bound; tasks, cells that the
- * threads take one after the other; shares, every m-th task.
+ * threads take one after the other; shares, to which the tasks are dealt.
  *
  * An answer that was finished does not depend on the threads: whatever the order,
  * all boxes are offered that may be the best or tie with it. */
@@ -50,8 +50,8 @@ static void offer_flat_boxes(ki_run *r, double *corner)
  * many starts a kind and axis that made nothing better. */
 enum { PATIENCE = 5 };
 
-/* How many cuts make the tasks, about. */
-enum { CUTS = 4 };
+/* Tasks are made in so many cuts at most. */
+enum { CUTS = 16 };
 
 static bool climbed(void *state, double work)
 {
@@ -144,14 +144,14 @@ static size_t enough_tasks(const search *s)
  * hardest cells apart. */
 static void cut(search *s)
 {
-    double target = ki_run_target(&s->run), share = 1.0 - 1.0 / CUTS;
+    double target = ki_run_target(&s->run);
 
     make_tasks(s, HUGE_VAL);
-    for (int i = 0;
-         i < 4 * CUTS && s->tasks.count > 0 && s->tasks.count < enough_tasks(s) &&
+    for (int cuts = 0;
+         cuts < CUTS && s->tasks.count > 0 && s->tasks.count < enough_tasks(s) &&
          !ki_team_stopped(s->run.team);
-         i++)
-        make_tasks(s, target + share * (s->tasks.most - target));
+         cuts++)
+        make_tasks(s, target + 0.75 * (s->tasks.most - target));
     if (s->parts > 1) deal_tasks(s);
 }
 
