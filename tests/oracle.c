@@ -249,6 +249,14 @@ double oracle_dyadic(oracle_rng *rng, unsigned bits)
     return bits == 0 ? 0.0 : ldexp((double)(next(rng) >> (64 - bits)), -(int)bits);
 }
 
+bool oracle_long_doubles(void)
+{
+    volatile long double one = 1.0L, tiny = 0x1p-1000L;
+    volatile long double more = one + 0x1p-60L, less = tiny * tiny;
+
+    return more > one && less > 0.0L;
+}
+
 int oracle_run(Suite *suite)
 {
     SRunner *runner = srunner_create(suite);

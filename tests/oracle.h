@@ -65,6 +65,10 @@ size_t oracle_below(oracle_rng *rng, size_t n);
 /* A multiple of 2^-bits in [0,1), bits <= 53. */
 double oracle_dyadic(oracle_rng *rng, unsigned bits);
 
+/* Whether long double has more digits and a wider range than double where the test
+ * runs: valgrind's has neither, whatever <float.h> says. */
+bool oracle_long_doubles(void);
+
 /* Run the suite as CK_ENV says, free it, and return what main returns. */
 int oracle_run(Suite *suite);
 
