@@ -56,14 +56,14 @@ typedef struct koksma_star_opts {
     /* They work towards that in stages, which takes two to three times as long in
      * all, but has an upper bound when it is stopped. */
     bool anytime;
-    size_t threads;     /* of the tree; 0: one a processor */
-    size_t part, parts; /* 1 <= part <= parts: the tree does this share of the work,
-                         * and finds a part_lower and a part_upper, whose maxima
+    size_t threads;     /* of the tree and the lines; 0: one a processor */
+    size_t part, parts; /* 1 <= part <= parts: they do this share of the work,
+                         * and find a part_lower and a part_upper, whose maxima
                          * over all parts are value; parts 0 or 1: all of it */
     double work;   /* stop after about so many steps; 0: after KOKSMA_STAR_WORK for
                     * the sweep, never for the others */
     uint64_t seed; /* of the search: it fixes every bit of the result */
-    /* Called a few times a second, by the tree also when value improves; by any
+    /* Called a few times a second, by these two also when value improves; by any
      * thread, but by one at a time.  NULL: never. */
     koksma_progress *progress;
     void *state; /* handed to progress */
