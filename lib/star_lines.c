@@ -11,7 +11,9 @@
  * than all lines at its leaf, and a cell no more than all lines and points: n^dim
  * steps at worst, like the sweep, if no filter ever drops a line. */
 
-enum { LEAF_SLAB = 64, LEAF_CELL = 16 };
+/* Without the hull there are a few lines a point, but where many heights are
+ * collinear. */
+enum { LEAF_SLAB = 64, LEAF_CELL = 16, DENSE = 2 };
 
 typedef struct search {
     ki_run run;
@@ -34,7 +36,7 @@ static size_t columns(const ki_lines_worker *w, const ki_lines_cell *c)
 /* Whether there is anything to split; a small cell is worked off here. */
 static bool examine(ki_lines_worker *w, const ki_lines_cell *c)
 {
-    if (!ki_lines_matters(w, c)) return false;
+    if (c->lines == 0) return false;
     if (c->of_grid || columns(w, c) > w->sizes.leaf) return true;
     if (!ki_lines_leaf(w, c)) ki_run_give_up(w->run);
     return false;
@@ -70,8 +72,6 @@ static void work_on(void *state, size_t thread, size_t number)
     ki_lines_cell whole;
 
     if (!ki_lines_bring_in(w, task, &whole)) ki_run_give_up(w->run);
-    free(task->memory);
-    task->memory = NULL;
     if (!ki_team_stopped(w->run->team) && examine(w, &whole)) dive(w, &whole);
 }
 
@@ -101,16 +101,32 @@ static void pass(search *s, bool scout)
     ki_lines_tasks_free(&s->tasks);
 }
 
+static void revisit(void *state, size_t thread, size_t number)
+{
+    search *s = state;
+
+    if (!ki_lines_revisit(&s->worker[thread], &s->known, number * KI_LINES_PARTS))
+        ki_run_give_up(&s->run);
+}
+
 /* A scout first; where the answer is to be exact, whoever may be the witness is
  * then looked at again; each share does that for what its own scouts have found. */
 static void search_stage(void *state)
 {
     search *s = state;
+    size_t threads = ki_team_threads(s->run.team);
 
     pass(s, true);
     if (s->run.factor > 1.0 || ki_team_stopped(s->run.team)) return;
-    ki_lines_gather(&s->known, s->worker, ki_team_threads(s->run.team));
-    pass(s, false);
+    ki_lines_gather(&s->known, s->worker, threads);
+    if (s->known.too_many) {
+        pass(s, false);
+        return;
+    }
+    for (size_t i = 0; i < threads; i++)
+        s->worker[i].scout = false;
+    ki_team_run(s->run.team, (s->known.count + KI_LINES_PARTS - 1) / KI_LINES_PARTS,
+                revisit, s);
 }
 
 /* A search that is cut short may have passed one of several tied ranks, and not
@@ -118,10 +134,11 @@ static void search_stage(void *state)
 static koksma_status settle_witness(ki_best *b)
 {
     double *corner = ki_alloc(b->p.dim, sizeof *corner);
+    bool closed = b->witness.closed;
 
     if (corner == NULL) return KOKSMA_ENOMEM;
     memcpy(corner, b->witness.corner, b->p.dim * sizeof *corner);
-    ki_lines_recount(b, corner, b->witness.closed);
+    ki_best_offer(b, corner, ki_lines_inside(b->p, corner, closed), closed);
     free(corner);
     return KOKSMA_OK;
 }
@@ -131,17 +148,15 @@ static koksma_status begin(search *s, ki_best *b, const koksma_star_opts *opts,
 {
     s->part = opts->parts > 1 ? opts->part - 1 : 0;
     s->parts = opts->parts > 1 ? opts->parts : 1;
-    if (ki_lines_grid_make(&s->grid, b->p) != KOKSMA_OK ||
-        ki_lines_climb(&s->grid, b) != KOKSMA_OK ||
-        ki_run_begin(&s->run, b, opts) != KOKSMA_OK)
+    if (ki_run_begin(&s->run, b, opts) != KOKSMA_OK ||
+        ki_lines_grid_make(&s->grid, b->p, s->run.team) != KOKSMA_OK ||
+        ki_lines_climb(&s->grid, &s->run, sizes.climbs) != KOKSMA_OK)
         return KOKSMA_ENOMEM;
     s->worker = calloc(ki_team_threads(s->run.team), sizeof *s->worker);
-    for (size_t i = 0; i < ki_team_threads(s->run.team); i++) {
+    for (size_t i = 0; i < ki_team_threads(s->run.team); i++)
         if (s->worker == NULL || ki_lines_worker_begin(&s->worker[i], &s->grid,
                                                        &s->run, sizes) != KOKSMA_OK)
             return KOKSMA_ENOMEM;
-        s->worker[i].known = &s->known;
-    }
     return KOKSMA_OK;
 }
 
@@ -179,7 +194,11 @@ koksma_status ki_star_lines_with(ki_best *b, const koksma_star_opts *opts,
 koksma_status ki_star_lines(ki_best *b, const koksma_star_opts *opts, double *upper,
                             double *work, bool *stopped)
 {
-    ki_lines_sizes sizes = {b->p.dim == 2 ? LEAF_SLAB : LEAF_CELL, KI_LINES_FINDS};
+    bool slab = b->p.dim == 2;
+    ki_lines_sizes sizes = {.leaf = slab ? LEAF_SLAB : LEAF_CELL,
+                            .finds = KI_LINES_FINDS,
+                            .dense = DENSE,
+                            .climbs = slab ? 1 : KI_LINES_CLIMBS};
 
     return ki_star_lines_with(b, opts, sizes, upper, work, stopped);
 }

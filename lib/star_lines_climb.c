@@ -13,6 +13,8 @@ typedef struct climb {
     uint32_t q[KI_LINES_AXES];
     size_t j; /* rank in height; n: the coordinate 1 */
     double excess;
+    double corner[KI_LINES_AXES + 1]; /* where it ends */
+    size_t inside;
 } climb;
 
 /* Whether a rank is inside a side that ends at rank q. */
@@ -99,20 +101,8 @@ static void go_up(climb *c)
     }
 }
 
-static void offer(const climb *c, ki_best *b)
+size_t ki_lines_inside(koksma_points p, const double *corner, bool closed)
 {
-    const ki_lines_grid *g = c->grid;
-    double corner[KI_LINES_AXES + 1];
-
-    for (size_t k = 0; k < g->axes; k++)
-        corner[k] = g->side[k][c->q[k]];
-    corner[g->axes] = c->j < g->n ? g->height[c->j] : 1.0;
-    ki_lines_recount(b, corner, c->closed);
-}
-
-void ki_lines_recount(ki_best *b, const double *corner, bool closed)
-{
-    koksma_points p = b->p;
     size_t inside = 0;
 
     for (size_t i = 0; i < p.n; i++) {
@@ -125,28 +115,63 @@ void ki_lines_recount(ki_best *b, const double *corner, bool closed)
         }
         inside += in;
     }
-    ki_best_offer(b, corner, inside, closed);
+    return inside;
 }
 
-koksma_status ki_lines_climb(const ki_lines_grid *g, ki_best *b)
+static void find_corner(climb *c, koksma_points p)
 {
-    static const double starts[] = {1.0, 0.5, 0.75, 0.25, 0.9};
-    size_t n = g->n, most = g->axes == 1 ? 1 : 5;
+    const ki_lines_grid *g = c->grid;
+
+    for (size_t k = 0; k < g->axes; k++)
+        c->corner[k] = g->side[k][c->q[k]];
+    c->corner[g->axes] = c->j < g->n ? g->height[c->j] : 1.0;
+    c->inside = ki_lines_inside(p, c->corner, c->closed);
+}
+
+/* From how far up all sides. */
+static const double starts[KI_LINES_CLIMBS] = {1.0, 0.5, 0.75, 0.25, 0.9};
+
+typedef struct all_climbs {
+    const ki_lines_grid *grid;
+    koksma_points p;
+    const uint32_t *at;
+    climb climb[2 * KI_LINES_CLIMBS];
+} all_climbs;
+
+static void climb_from(void *state, size_t thread, size_t number)
+{
+    all_climbs *all = state;
+    size_t n = all->grid->n;
+    climb *c = &all->climb[number];
+
+    (void)thread;
+    *c = (climb){.grid = all->grid,
+                 .at = all->at,
+                 .closed = number % 2 == 1,
+                 .j = SIZE_MAX,
+                 .excess = -2.0 * (double)n};
+    for (size_t k = 0; k < c->grid->axes; k++)
+        c->q[k] = (uint32_t)((double)n * starts[number / 2]);
+    go_up(c);
+    find_corner(c, all->p);
+}
+
+koksma_status ki_lines_climb(const ki_lines_grid *g, ki_run *run, size_t climbs)
+{
+    size_t n = g->n, count = 2 * climbs;
     uint32_t *at = ki_alloc(g->axes * n, sizeof *at);
+    ki_best *b = run->best;
+    all_climbs all = {.grid = g, .p = b->p, .at = at};
 
     if (at == NULL) return KOKSMA_ENOMEM;
     for (size_t p = 0; p < n; p++)
         for (size_t k = 0; k < g->axes; k++)
             at[k * n + g->rank[p * g->axes + k]] = (uint32_t)p;
-    for (size_t s = 0; s < 2 * most; s++) {
-        climb c = {.grid = g, .at = at, .closed = s % 2 == 1, .j = SIZE_MAX};
-
-        c.excess = -2.0 * (double)n;
-        for (size_t k = 0; k < g->axes; k++)
-            c.q[k] = (uint32_t)((double)n * starts[s / 2]);
-        go_up(&c);
-        offer(&c, b);
-    }
+    ki_team_run(run->team, count, climb_from, &all);
+    for (size_t i = 0; i < count; i++)
+        ki_best_offer(b, all.climb[i].corner, all.climb[i].inside,
+                      all.climb[i].closed);
+    ki_team_raise(run->team, b->proven);
     free(at);
     return KOKSMA_OK;
 }

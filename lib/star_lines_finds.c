@@ -46,22 +46,19 @@ void ki_lines_gather(ki_lines_finds *all, ki_lines_worker *worker, size_t worker
     }
 }
 
-static bool found_in(const ki_lines_worker *w, const ki_lines_cell *c)
+bool ki_lines_revisit(ki_lines_worker *w, const ki_lines_finds *f, size_t first)
 {
-    const ki_lines_finds *f = w->known;
+    for (int closed = 0; closed < 2; closed++) {
+        ki_lines_cell whole = ki_lines_cell_whole(w->grid, closed);
+        ki_lines_split *s = &w->path[0];
 
-    for (size_t i = 0; i < f->count; i++) {
-        bool overlap = f->most[i] > ki_lines_cut(w);
-
-        for (size_t k = 0; k < w->grid->axes; k++)
-            overlap = overlap && c->low[k] < f->leaf[i].high[k] &&
-                      f->leaf[i].low[k] < c->high[k];
-        if (overlap) return true;
+        s->left = 0;
+        for (size_t i = first; i < first + KI_LINES_PARTS && i < f->count; i++)
+            if (f->leaf[i].closed == closed && f->most[i] > ki_lines_cut(w))
+                s->part[s->left++] = f->leaf[i];
+        if (s->left > 0 && !ki_lines_cell_fill(w, &whole, 0)) return false;
+        while (s->left-- > 0)
+            if (!ki_lines_leaf(w, &s->part[s->left])) return false;
     }
-    return f->too_many;
-}
-
-bool ki_lines_matters(const ki_lines_worker *w, const ki_lines_cell *c)
-{
-    return c->lines[0] + c->lines[1] > 0 && (w->scout || found_in(w, c));
+    return true;
 }

@@ -8,14 +8,12 @@
 
 enum { BLOCK = 256 };
 
-typedef int64_t marks __attribute__((vector_size(8 * KI_LINES_PARTS)));
-
 /* What the points below add to a line's tally, for one block of points. */
 typedef struct map {
     ki_words sum[BLOCK + 1];
 } map;
 
-#define INLINE static inline __attribute__((always_inline))
+#define INLINE KI_LINES_INLINE
 
 /* 1 where the ranks of a point are below the limits. */
 INLINE void mark_below(ki_words *out, const uint32_t *point, size_t axes,
@@ -27,12 +25,6 @@ INLINE void mark_below(ki_words *out, const uint32_t *point, size_t axes,
     *out = below >> 63;
 }
 
-INLINE void put_point(uint32_t *to, const uint32_t *point, size_t axes)
-{
-    to[0] = point[0];
-    if (axes == 2) to[1] = point[1];
-}
-
 /* Those that are surely inside, and those that may be, which go down. */
 INLINE void flow_points(const ki_lines_flow *f, ki_words *kept, map *m, size_t from,
                         size_t to, const ki_lines_range *r, size_t axes)
@@ -40,46 +32,23 @@ INLINE void flow_points(const ki_lines_flow *f, ki_words *kept, map *m, size_t f
     ki_words sum = m->sum[0], used = *kept;
 
     for (size_t i = from; i < to; i++) {
-        const uint32_t *point = f->point + i * axes;
+        uint32_t point[2] = {0, 0};
         ki_words in, unsure;
 
+        memcpy(point, f->point + i * axes, axes * sizeof *point);
         mark_below(&in, point, axes, r->low);
         mark_below(&unsure, point, axes, r->high);
         unsure -= in;
         sum += in + (unsure << 32);
         m->sum[i - from + 1] = sum;
-        put_point(f->to_point[0] + used[0] * axes, point, axes);
-        put_point(f->to_point[1] + used[1] * axes, point, axes);
-        put_point(f->to_point[2] + used[2] * axes, point, axes);
-        put_point(f->to_point[3] + used[3] * axes, point, axes);
+        memcpy(f->to_point[0] + used[0] * axes, point, axes * sizeof *point);
+        memcpy(f->to_point[1] + used[1] * axes, point, axes * sizeof *point);
+        memcpy(f->to_point[2] + used[2] * axes, point, axes * sizeof *point);
+        memcpy(f->to_point[3] + used[3] * axes, point, axes * sizeof *point);
         used += unsure;
     }
     *kept = used;
 }
-
-/* Counts, below 2^32, as the lower half of a double's bits with 2^52 above. */
-INLINE void count(ki_lanes *out, const ki_words *tally)
-{
-    ki_words bits = (*tally & 0xffffffff) | 0x4330000000000000;
-
-    *out = (ki_lanes)bits - 0x1p52;
-}
-
-INLINE void raise(ki_lanes *a, const ki_lanes *b)
-{
-    marks which = *b > *a;
-
-    *a = (ki_lanes)(((marks)*b & which) | ((marks)*a & ~which));
-}
-
-/* One kind of line on its way. */
-typedef struct stream {
-    const ki_line *line;
-    size_t at, lines;
-    char *to[KI_LINES_PARTS];
-    ki_words used; /* bytes */
-    ki_lanes cut;
-} stream;
 
 INLINE void put_line(char *to, double y, uint64_t tally)
 {
@@ -87,6 +56,15 @@ INLINE void put_line(char *to, double y, uint64_t tally)
 
     memcpy(to, &l, sizeof l);
 }
+
+/* The lines on their way. */
+typedef struct stream {
+    const ki_line *line;
+    size_t at, lines;
+    char *to[KI_LINES_PARTS];
+    ki_words used; /* bytes */
+    ki_lanes cut;
+} stream;
 
 /* The lines with up to `to` points below them. */
 INLINE void flow_lines(stream *s, const map *m, size_t from, size_t to,
@@ -103,7 +81,7 @@ INLINE void flow_lines(stream *s, const map *m, size_t from, size_t to,
         ki_words inside = closed ? tally + (tally >> 32) : tally, keep;
         ki_lanes most;
 
-        count(&most, &inside);
+        ki_lines_count(&most, &inside);
         most = closed ? most - first * l.y : last * l.y - most;
         keep = (ki_words)(most > cut);
 
@@ -113,49 +91,78 @@ INLINE void flow_lines(stream *s, const map *m, size_t from, size_t to,
         put_line(s->to[3] + used[3], l.y, tally[3]);
         used += keep & sizeof(ki_line);
         most -= margin;
-        raise(&cut, &most);
+        ki_lines_raise(&cut, &most);
     }
     s->cut = cut;
     s->used = used;
     s->at = at;
 }
 
-static stream stream_of(const ki_lines_flow *f, const ki_lines_range *r,
-                        bool closed)
+/* The grid's lines at the heights of points from <= j < to.  Of tied heights open
+ * boxes need the first rank only and closed ones the last, where the counts are
+ * right.  Open boxes may reach to 1. */
+static size_t make_lines(ki_line *out, const ki_lines_flow *f, size_t from,
+                         size_t to)
 {
-    stream s = {.line = f->line[closed], .lines = f->lines[closed], .cut = r->cut};
+    const double *y = f->height;
+    size_t n = f->points, made = 0;
+
+    for (size_t j = from; j < to; j++)
+        if (f->closed) {
+            if (j + 1 == n || y[j] != y[j + 1])
+                out[made++] = (ki_line){y[j], (uint64_t)(j + 1) << 32};
+        } else {
+            if (j == 0 || y[j] != y[j - 1])
+                out[made++] = (ki_line){y[j], (uint64_t)j << 32};
+        }
+    if (!f->closed && to == n && y[n - 1] < 1.0)
+        out[made++] = (ki_line){1.0, (uint64_t)n << 32};
+    return made;
+}
+
+static stream stream_of(const ki_lines_flow *f, const ki_lines_range *r)
+{
+    stream s = {.line = f->line, .lines = f->lines, .cut = r->cut};
 
     for (size_t q = 0; q < KI_LINES_PARTS; q++)
-        s.to[q] = (char *)f->to_line[closed][q];
+        s.to[q] = (char *)f->to_line[q];
     return s;
 }
 
-KI_LINES_CLONES
-static void flow_down(ki_lines_flow *f, const ki_lines_range *r)
+INLINE void flow(ki_lines_flow *f, const ki_lines_range *r, size_t axes,
+                 bool closed)
 {
-    stream open = stream_of(f, r, false), closed = stream_of(f, r, true);
+    stream s = stream_of(f, r);
     ki_words kept = {0};
+    ki_line made[BLOCK + 1];
     map m;
 
     m.sum[0] = kept;
     for (size_t from = 0;;) {
         size_t to = f->points - from < BLOCK ? f->points : from + BLOCK;
 
-        if (f->axes == 1)
-            flow_points(f, &kept, &m, from, to, r, 1);
-        else
-            flow_points(f, &kept, &m, from, to, r, 2);
-        flow_lines(&open, &m, from, to, r, false);
-        flow_lines(&closed, &m, from, to, r, true);
+        flow_points(f, &kept, &m, from, to, r, axes);
+        if (f->line == NULL) {
+            s.line = made;
+            s.at = 0;
+            s.lines = make_lines(made, f, from, to);
+        }
+        flow_lines(&s, &m, from, to, r, closed);
         if (to == f->points) break;
         m.sum[0] = m.sum[BLOCK];
         from = to;
     }
-    for (size_t q = 0; q < KI_LINES_PARTS; q++) {
-        f->points_kept[q] = kept[q];
-        f->lines_kept[0][q] = open.used[q] / sizeof(ki_line);
-        f->lines_kept[1][q] = closed.used[q] / sizeof(ki_line);
-    }
+    f->points_kept = kept;
+    f->lines_kept = s.used / sizeof(ki_line);
+}
+
+KI_LINES_CLONES
+static void flow_down(ki_lines_flow *f, const ki_lines_range *r)
+{
+    if (f->axes == 1)
+        f->closed ? flow(f, r, 1, true) : flow(f, r, 1, false);
+    else
+        f->closed ? flow(f, r, 2, true) : flow(f, r, 2, false);
 }
 
 void ki_lines_flow_down(ki_lines_flow *f, const ki_lines_range *r)

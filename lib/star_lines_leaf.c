@@ -90,23 +90,22 @@ static void find_starts(ki_lines_worker *w, const ki_lines_cell *c,
     const uint32_t *point = w->point + c->point;
     size_t p = 0;
 
-    w->start[c->high[0] - c->low[0] - 1] = (uint32_t)whole_blocks(m);
+    for (uint32_t q = 0; q < c->high[0] - c->low[0]; q++)
+        w->start[q] = (uint32_t)whole_blocks(m);
     for (size_t j = 0; j < m; j++)
         while (p < ki_line_unsure(line[j]))
             w->start[point[p++] - c->low[0]] = (uint32_t)j;
-    while (p < c->points)
-        w->start[point[p++] - c->low[0]] = (uint32_t)whole_blocks(m);
 }
 
 KI_LINES_CLONES
-static bool sweep_slab(ki_lines_worker *w, const ki_lines_cell *c, bool closed)
+static bool sweep_slab(ki_lines_worker *w, const ki_lines_cell *c)
 {
     const ki_lines_grid *g = w->grid;
-    const ki_line *line = w->line + c->line[closed];
-    size_t m = c->lines[closed], all = whole_blocks(m);
+    const ki_line *line = w->line + c->line;
+    size_t m = c->lines, all = whole_blocks(m);
+    bool closed = c->closed;
     double sign = closed ? -1.0 : 1.0, most = -HUGE_VAL;
 
-    if (m == 0) return true;
     if (!take_apart(w, line, m, closed)) return false;
     find_starts(w, c, line, m);
     for (uint32_t i = 0; i < c->high[0] - c->low[0]; i++) {
@@ -125,14 +124,14 @@ static bool sweep_slab(ki_lines_worker *w, const ki_lines_cell *c, bool closed)
 
 /* The count of one column at each line, by merging points and lines. */
 static void count_column(ki_lines_worker *w, const ki_lines_cell *c,
-                         const uint32_t *q, bool closed)
+                         const uint32_t *q)
 {
     const uint32_t *point = w->point + c->point;
-    const ki_line *line = w->line + c->line[closed];
-    uint32_t more = closed ? 1 : 0;
+    const ki_line *line = w->line + c->line;
+    uint32_t more = c->closed ? 1 : 0;
     size_t p = 0, inside = 0;
 
-    for (size_t j = 0; j < c->lines[closed]; j++) {
+    for (size_t j = 0; j < c->lines; j++) {
         for (; p < ki_line_unsure(line[j]); p++)
             inside +=
                 (point[2 * p] < q[0] + more) & (point[2 * p + 1] < q[1] + more);
@@ -140,18 +139,18 @@ static void count_column(ki_lines_worker *w, const ki_lines_cell *c,
     }
 }
 
-static bool sweep_cell(ki_lines_worker *w, const ki_lines_cell *c, bool closed)
+static bool sweep_cell(ki_lines_worker *w, const ki_lines_cell *c)
 {
     const ki_lines_grid *g = w->grid;
-    size_t m = c->lines[closed];
+    size_t m = c->lines;
     uint32_t q[KI_LINES_AXES];
 
-    if (!take_apart(w, w->line + c->line[closed], m, closed)) return false;
+    if (!take_apart(w, w->line + c->line, m, c->closed)) return false;
     for (q[0] = c->low[0]; q[0] < c->high[0]; q[0]++)
         for (q[1] = c->low[1]; q[1] < c->high[1]; q[1]++) {
-            count_column(w, c, q, closed);
+            count_column(w, c, q);
             ki_lines_note(w, c,
-                          offer_column(w, q, ki_lines_slope(g, q), m, closed));
+                          offer_column(w, q, ki_lines_slope(g, q), m, c->closed));
             w->work += (double)(m + c->points);
         }
     return true;
@@ -159,7 +158,6 @@ static bool sweep_cell(ki_lines_worker *w, const ki_lines_cell *c, bool closed)
 
 bool ki_lines_leaf(ki_lines_worker *w, const ki_lines_cell *c)
 {
-    if (w->grid->axes == 2)
-        return sweep_cell(w, c, false) && sweep_cell(w, c, true);
-    return sweep_slab(w, c, false) && sweep_slab(w, c, true);
+    if (c->lines == 0) return true;
+    return w->grid->axes == 2 ? sweep_cell(w, c) : sweep_slab(w, c);
 }

@@ -6,7 +6,7 @@
 #include "star_lines_kernels.h"
 
 /* Cells that threads and shares take, each with its points and its lines.  The
- * whole is split in rounds, every cell of a round by the thread that comes first;
+ * grid is split in rounds, every cell of a round by the thread that comes first;
  * no corner is looked at meanwhile, so that the cells do not depend on the
  * threads. */
 
@@ -15,23 +15,20 @@ enum { ROUNDS = 6 };
 static bool take_out(const ki_lines_worker *w, const ki_lines_cell *c,
                      ki_lines_task *t)
 {
-    size_t lines = c->lines[0] + c->lines[1], points = c->points * w->grid->axes;
+    size_t lines = c->lines, points = c->points * w->grid->axes;
     ki_line *to =
         ki_alloc(1, lines * sizeof *to + points * sizeof(uint32_t) + sizeof *to);
 
     if (to == NULL) return false;
     *t = (ki_lines_task){.cell = *c, .memory = to};
-    for (int closed = 0; closed < 2; closed++) {
-        memcpy(to, w->line + c->line[closed], c->lines[closed] * sizeof *to);
-        to += c->lines[closed];
-    }
-    memcpy(to, w->point + c->point, points * sizeof(uint32_t));
+    memcpy(to, w->line + c->line, lines * sizeof *to);
+    memcpy(to + lines, w->point + c->point, points * sizeof(uint32_t));
     return true;
 }
 
-bool ki_lines_bring_in(ki_lines_worker *w, const ki_lines_task *t, ki_lines_cell *c)
+bool ki_lines_bring_in(ki_lines_worker *w, ki_lines_task *t, ki_lines_cell *c)
 {
-    size_t lines = t->cell.lines[0] + t->cell.lines[1];
+    size_t lines = t->cell.lines;
     size_t points = t->cell.points * w->grid->axes;
     const ki_line *from = t->memory;
 
@@ -44,8 +41,9 @@ bool ki_lines_bring_in(ki_lines_worker *w, const ki_lines_task *t, ki_lines_cell
         return false;
     memcpy(w->line, from, lines * sizeof *from);
     memcpy(w->point, from + lines, points * sizeof *w->point);
-    c->point = c->line[0] = 0;
-    c->line[1] = c->lines[0];
+    free(t->memory);
+    t->memory = NULL;
+    c->point = c->line = 0;
     return true;
 }
 
@@ -64,7 +62,7 @@ static void split_task(void *state, size_t thread, size_t number)
     for (size_t q = 0; done && q < w->path[0].left; q++) {
         const ki_lines_cell *part = &w->path[0].part[q];
 
-        if (ki_lines_matters(w, part)) done = take_out(w, part, last - q);
+        if (part->lines > 0) done = take_out(w, part, last - q);
     }
     if (!done) ki_run_give_up(w->run);
 }
@@ -91,6 +89,8 @@ static void next_round(ki_lines_tasks *tasks)
         return;
     }
     ki_team_run(run->team, tasks->count, split_task, tasks);
+    for (size_t i = 0; i < ki_team_threads(run->team); i++)
+        ki_lines_worker_rest(&tasks->worker[i]);
     settle_round(tasks);
 }
 
@@ -99,13 +99,12 @@ bool ki_lines_make_tasks(ki_lines_tasks *tasks, ki_lines_worker *worker,
 {
     ki_team *team = worker[0].run->team;
 
-    *tasks = (ki_lines_tasks){.worker = worker, .count = 1};
-    tasks->task = calloc(1, sizeof *tasks->task);
-    if (tasks->task == NULL) {
-        tasks->count = 0;
-        return false;
-    }
-    tasks->task[0].cell = ki_lines_cell_whole(worker[0].grid);
+    *tasks = (ki_lines_tasks){.worker = worker};
+    tasks->task = calloc(2, sizeof *tasks->task);
+    if (tasks->task == NULL) return false;
+    tasks->count = 2;
+    for (int closed = 0; closed < 2; closed++)
+        tasks->task[closed].cell = ki_lines_cell_whole(worker[0].grid, closed);
     for (int round = 0; round < ROUNDS && tasks->count > 0 &&
                         tasks->count < enough && !ki_team_stopped(team);
          round++)

@@ -1,3 +1,5 @@
+#include <string.h>
+
 #include "star_lines_kernels.h"
 
 /* Which lines matter, and why.
@@ -10,13 +12,17 @@
  * be, and a_j those of them that are.  Lines are in the order of their heights, so
  * of k < j the points below k are below j too: 0 <= a_j - a_k <= p_j - p_k.
  *
- *   rise  f_j - f_k <= (last y_j - c_j) - (last y_k - c_k) for k < j: line k beats
- * j everywhere if last y - c does not rise from k to j.  (flow.c) fall  f_k - f_j
- * >= (first y_k - c_k - p_k) - (first y_j - c_j - p_j) for k > j: line k beats j if
- * this does not fall from j to k. hull  of i < j < k with p_i = p_j = p_k the three
- * a are the same, and f_j less a mean of f_i and f_k with the weights that make up
- * y_j does not depend on the column: one of them beats j if (y_j, c_j) is not below
- * the segment between theirs.
+ * Rise: f_j - f_k <= (last y_j - c_j) - (last y_k - c_k) for k < j, so that line k
+ * beats j everywhere if last y - c does not rise from k to j.  (In flow.c.)
+ *
+ * Fall: f_k - f_j >= (first y_k - c_k - p_k) - (first y_j - c_j - p_j) for k > j,
+ * so that line k beats j if this does not fall from j to k.
+ *
+ * Hull: of i < j < k with p_i = p_j = p_k the three a are the same, and f_j less a
+ * mean of f_i and f_k with the weights that make up y_j does not depend on the
+ * column: one of them beats j if (y_j, c_j) is not below the segment between
+ * theirs. Few lines go that way but where many heights are collinear, so that it is
+ * tried only where the other two leave many lines a point.
  *
  * Closed boxes have f_j = c_j + a_j - t y_j instead; then c + p - first y is to
  * rise, and c - last y to fall.  The filters run one after the other, so that a
@@ -40,84 +46,142 @@
  * What is above the cut less the loss is noted; so no box that may be the witness
  * is in a leaf that a scout does not note, or whose cell it has dropped. */
 
-#define INLINE static inline __attribute__((always_inline))
+#define INLINE KI_LINES_INLINE
 
-INLINE double inside_of(uint64_t tally) { return (double)(int32_t)(uint32_t)tally; }
+/* All parts side by side, since a step of a filter waits for the one before: a part
+ * whose lines are at their end goes idle. */
 
-/* What a column and a line have at least. */
-INLINE double least(ki_line l, double slope, bool closed)
+typedef int64_t marks __attribute__((vector_size(8 * KI_LINES_PARTS)));
+
+typedef struct lines {
+    ki_lanes y;
+    ki_words tally;
+} lines;
+
+/* Where in memory they are, in bytes from the beginnings of the parts' lines. */
+INLINE lines load(char *const *line, const marks *at)
 {
-    return closed ? inside_of(l.tally) - slope * l.y
-                  : slope * l.y - inside_of(l.tally + (l.tally >> 32));
+    const ki_line *a = (const ki_line *)(const void *)(line[0] + (*at)[0]);
+    const ki_line *b = (const ki_line *)(const void *)(line[1] + (*at)[1]);
+    const ki_line *c = (const ki_line *)(const void *)(line[2] + (*at)[2]);
+    const ki_line *d = (const ki_line *)(const void *)(line[3] + (*at)[3]);
+
+    return (lines){{a->y, b->y, c->y, d->y},
+                   {a->tally, b->tally, c->tally, d->tally}};
 }
 
-/* Keep what falls: from the right, and to the right end; returns how many. */
-INLINE size_t keep_records_back(ki_line *line, size_t m, double slope,
-                                double margin, bool closed)
+INLINE void move(char *const *line, const marks *to, const marks *from)
 {
-    double cut = -2.0 * (double)UINT32_MAX;
-    size_t at = m;
+    memcpy(line[0] + (*to)[0], line[0] + (*from)[0], sizeof(ki_line));
+    memcpy(line[1] + (*to)[1], line[1] + (*from)[1], sizeof(ki_line));
+    memcpy(line[2] + (*to)[2], line[2] + (*from)[2], sizeof(ki_line));
+    memcpy(line[3] + (*to)[3], line[3] + (*from)[3], sizeof(ki_line));
+}
 
-    for (size_t j = m; j-- > 0;) {
-        ki_line l = line[j];
-        double u = least(l, slope, closed), next = u - margin;
+INLINE int64_t greatest(const marks *m)
+{
+    int64_t most = (*m)[0];
 
-        line[at - 1] = l;
-        at -= u > cut;
-        cut = next > cut ? next : cut;
+    for (int q = 1; q < KI_LINES_PARTS; q++)
+        most = (*m)[q] > most ? (*m)[q] : most;
+    return most;
+}
+
+/* Keep what falls: from the right, and to the right end.  first: of those kept. */
+INLINE void keep_records_back(char *const *line, const marks *end,
+                              const ki_lanes *slope, double margin, marks *first,
+                              bool closed)
+{
+    const int64_t size = sizeof(ki_line);
+    ki_lanes cut = (ki_lanes){0} - 2.0 * (double)UINT32_MAX;
+    marks at = *end - size, before = *end - size;
+
+    for (int64_t left = greatest(end); left > 0; left -= size, before -= size) {
+        marks live = ~(before >> 63), from = before & live;
+        lines l = load(line, &from);
+        ki_words inside;
+        ki_lanes u;
+
+        inside = closed ? l.tally : l.tally + (l.tally >> 32);
+        ki_lines_count(&u, &inside);
+        u = closed ? u - *slope * l.y : *slope * l.y - u;
+        move(line, &at, &from);
+        at -= live & (u > cut) & size;
+        u -= margin;
+        ki_lines_raise(&cut, &u);
     }
-    return m - at;
+    *first = at + size;
 }
+
+INLINE double inside_of(ki_line l) { return (double)(int32_t)(uint32_t)l.tally; }
 
 /* How far b is above the segment from a to c, times its length. */
 INLINE double above(ki_line a, ki_line b, ki_line c, bool closed)
 {
-    double ab = inside_of(b.tally) - inside_of(a.tally);
-    double ac = inside_of(c.tally) - inside_of(a.tally);
+    double ab = inside_of(b) - inside_of(a), ac = inside_of(c) - inside_of(a);
     double d = ac * (b.y - a.y) - ab * (c.y - a.y);
 
     return closed ? -d : d;
 }
 
-INLINE size_t keep_hull(ki_line *out, const ki_line *line, size_t m, double margin,
-                        size_t *longest, bool closed)
+/* From the right, and to the right end: b waits for its left neighbour a.  Returns
+ * how many are kept. */
+INLINE size_t keep_hull(ki_line *line, size_t m, double margin, size_t *longest,
+                        bool closed)
 {
-    ki_line a, b;
-    size_t kept = 0, run = 0;
+    ki_line b = line[m - 1], c = b;
+    size_t at = m, run = 0;
 
-    if (m == 0) return 0;
-    a = line[0];
-    out[kept++] = a;
-    if (m == 1) return kept;
-    b = line[1];
-    for (size_t j = 2; j < m; j++) {
-        ki_line c = line[j];
-        bool same = (a.tally >> 32) == (b.tally >> 32) &&
-                    (b.tally >> 32) == (c.tally >> 32);
-        bool drop = same & (above(a, b, c, closed) < -margin * (c.y - a.y));
+    for (size_t j = m - 1; j-- > 0;) {
+        ki_line a = line[j];
+        bool same = ((a.tally ^ b.tally) | (b.tally ^ c.tally)) >> 32 == 0;
+        bool below = above(a, b, c, closed) < -margin * (c.y - a.y);
+        bool drop = (at < m) & same & below;
 
-        out[kept] = b;
-        kept += !drop;
+        line[at - 1] = b;
+        at -= !drop;
         run = drop ? run + 1 : 0;
         *longest = run > *longest ? run : *longest;
-        a = drop ? a : b;
-        b = c;
+        c = drop ? c : b;
+        b = a;
     }
-    out[kept++] = b;
-    return kept;
+    line[--at] = b;
+    return m - at;
 }
 
-INLINE size_t thin(ki_line *out, ki_line *line, size_t m, double slope,
-                   const ki_lines_range *r, size_t *longest, bool closed)
+INLINE void thin_kind(ki_lines_flow *f, const ki_lines_range *r, size_t *longest,
+                      bool closed)
 {
-    size_t kept = keep_records_back(line, m, slope, r->margin, closed);
+    char *line[KI_LINES_PARTS];
+    marks end = (marks)(f->lines_kept * sizeof(ki_line)), first;
 
-    return keep_hull(out, line + (m - kept), kept, r->hull_margin, longest, closed);
+    for (int q = 0; q < KI_LINES_PARTS; q++)
+        line[q] = (char *)f->to_line[q];
+    keep_records_back(line, &end, closed ? &r->last : &r->first, r->margin, &first,
+                      closed);
+    for (int q = 0; q < KI_LINES_PARTS; q++) {
+        size_t before = f->lines_kept[q], kept = (size_t)(end[q] - first[q]);
+
+        kept /= sizeof(ki_line);
+        longest[q] = 0;
+        if (kept > r->dense * f->points_kept[q] && kept > 2)
+            kept = keep_hull(f->to_line[q] + (before - kept), kept, r->hull_margin,
+                             &longest[q], closed);
+        f->to_line[q] += before - kept;
+        f->lines_kept[q] = kept;
+    }
 }
 
-size_t ki_lines_thin(ki_line *out, ki_line *line, size_t m, const ki_lines_range *r,
-                     size_t part, size_t *longest, bool closed)
+KI_LINES_CLONES
+static void thin(ki_lines_flow *f, const ki_lines_range *r, size_t *longest)
 {
-    return closed ? thin(out, line, m, r->last[part], r, longest, true)
-                  : thin(out, line, m, r->first[part], r, longest, false);
+    if (f->closed)
+        thin_kind(f, r, longest, true);
+    else
+        thin_kind(f, r, longest, false);
+}
+
+void ki_lines_thin(ki_lines_flow *f, const ki_lines_range *r, size_t *longest)
+{
+    thin(f, r, longest);
 }

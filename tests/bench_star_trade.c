@@ -32,7 +32,9 @@ static void end_row(void)
 static void two_threads(void)
 {
     static const bench_set sets[] = {
-        {"halton", 4, 10000, 1}, {"sobol", 8, 512, 0}, {"sobol", 15, 128, 0}};
+        {"halton", 2, 1000000, 1}, {"random", 2, 1000000, 0},
+        {"halton", 3, 50000, 1},   {"halton", 4, 10000, 1},
+        {"sobol", 8, 512, 0},      {"sobol", 15, 128, 0}};
 
     puts("# family\tdim\tn\twall_1\twall_2\tratio\tvalue");
     for (size_t i = 0; i < sizeof sets / sizeof sets[0]; i++) {
@@ -138,10 +140,11 @@ static void memory_of(const bench_set *s)
     koksma_points p = bench_points(s);
     double before = peak_bytes(), bytes, numbers = (double)(s->n * s->dim);
 
-    solve(p, (koksma_star_opts){.method = KOKSMA_STAR_TREE, .threads = 1});
+    solve(p, (koksma_star_opts){.threads = 1});
     bytes = peak_bytes() - before;
     print_set(s);
-    printf("\t%.0f\t%.0f\t%.4g", numbers, bytes, bytes / numbers);
+    printf("\t%.0f\t%.0f\t%.4g\t%.4g", numbers, bytes, bytes / numbers,
+           bytes / (double)s->n);
     end_row();
     bench_points_free(p);
 }
@@ -149,13 +152,16 @@ static void memory_of(const bench_set *s)
 static void memory(void)
 {
     static const bench_set sets[] = {
-        {"halton", 2, 10000, 1}, {"halton", 2, 100000, 1}, {"halton", 3, 2000, 1},
-        {"halton", 3, 20000, 1}, {"halton", 4, 1000, 1},   {"halton", 4, 10000, 1},
-        {"sobol", 8, 128, 0},    {"sobol", 8, 512, 0},     {"sobol", 15, 128, 0},
-        {"sobol", 15, 256, 0},   {"random", 20, 100, 0},   {"random", 20, 200, 0},
+        {"halton", 2, 10000, 1},  {"halton", 2, 1000000, 1},
+        {"sobol", 2, 1000000, 0}, {"halton", 3, 2000, 1},
+        {"halton", 3, 20000, 1},  {"halton", 4, 1000, 1},
+        {"halton", 4, 10000, 1},  {"sobol", 8, 128, 0},
+        {"sobol", 8, 512, 0},     {"sobol", 15, 128, 0},
+        {"sobol", 15, 256, 0},    {"random", 20, 100, 0},
+        {"random", 20, 200, 0},
     };
 
-    puts("# family\tdim\tn\tnumbers\tbytes\tbytes/number");
+    puts("# family\tdim\tn\tnumbers\tbytes\tbytes/number\tbytes/point");
     fflush(stdout); /* what is left in the buffer, each child would write again */
     for (size_t i = 0; i < sizeof sets / sizeof sets[0]; i++) {
         int status = EXIT_FAILURE;

@@ -118,8 +118,8 @@ clean-fuzz:
 # ---- Benches ---------------------------------------------------------------------
 
 benches = \
-  %D%/bench_gen %D%/bench_io %D%/bench_star %D%/bench_star_trade %D%/bench_l2 \
-  %D%/bench_fit %D%/bench_integrand
+  %D%/bench_gen %D%/bench_io %D%/bench_star %D%/bench_star_trade \
+  %D%/bench_star_plane %D%/bench_l2 %D%/bench_fit %D%/bench_integrand
 EXTRA_PROGRAMS += $(benches)
 CLEANFILES     += $(benches)
 %C%_bench_gen_SOURCES  = %D%/bench_gen.c %D%/bench.h
@@ -130,6 +130,8 @@ CLEANFILES     += $(benches)
 %C%_bench_star_LDADD   = lib/libcore.la
 %C%_bench_star_trade_SOURCES = %D%/bench_star_trade.c %D%/bench_star.h %D%/bench.h
 %C%_bench_star_trade_LDADD   = lib/libcore.la
+%C%_bench_star_plane_SOURCES = %D%/bench_star_plane.c %D%/bench_star.h %D%/bench.h
+%C%_bench_star_plane_LDADD   = lib/libcore.la
 %C%_bench_l2_SOURCES   = %D%/bench_l2.c %D%/bench.h
 %C%_bench_l2_LDADD     = lib/libcore.la
 %C%_bench_fit_SOURCES  = %D%/bench_fit.c %D%/bench.h %D%/paths.h

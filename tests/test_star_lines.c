@@ -74,7 +74,8 @@ static void check_same(answer a, answer b, koksma_points p, uint64_t round)
 }
 
 /* With no room for finds, a scout is followed by a search of everything. */
-static const ki_lines_sizes leaves[] = {{1, 64}, {2, 2}, {5, 0}, {64, 64}};
+static const ki_lines_sizes leaves[] = {
+    {1, 64, 0, 0}, {2, 2, 1, 1}, {5, 0, 0, 0}, {64, 64, 2, 5}};
 
 static void check_leaves(koksma_points p, answer truth, uint64_t round)
 {
@@ -84,8 +85,9 @@ static void check_leaves(koksma_points p, answer truth, uint64_t round)
 
 /* Coordinates by kind: anywhere; on coarse grids with and without 1; on faces;
  * crowded at 0, at 1 and down to the least doubles; lattices, whose lines are
- * collinear; and grids off by a few units of the last bit. */
-enum { KINDS = 10 };
+ * collinear; grids off by a few units of the last bit; and columns so few that many
+ * lines lie between the same points of theirs. */
+enum { KINDS = 11 };
 
 static double coordinate(oracle_rng *rng, size_t kind, size_t n, size_t i, size_t k)
 {
@@ -110,6 +112,7 @@ static double coordinate(oracle_rng *rng, size_t kind, size_t n, size_t i, size_
     case 9:
         return fmin(1.0, floor(u * 8.0) / 8.0 +
                              ldexp((double)oracle_below(rng, 4), -52));
+    case 10: return k == 0 && i % 8 > 0 ? ldexp(u, -30) : u;
     default: return u;
     }
 }
