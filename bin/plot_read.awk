@@ -146,7 +146,7 @@ function begin_curve() {
 function add_row(    x, y, l, u) {
     x = number(at_x)
     y = number(at_y)
-    if (kind == "trace" && x == 0) x = 0.001 # what the column can tell from 0
+    if (kind == "trace" && x + 0 == 0) x = 0.001 # what the column can tell from 0
     if (kind == "curve") sub(/^-/, "", y)
     if (new_curve || kind == "curve" && x + 0 <= last_x || kind == "trace" && x + 0 < last_x)
         begin_curve()

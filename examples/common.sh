@@ -39,11 +39,14 @@ walks() {
             "$(koksma-eval --list "$integrand" -d "$dim" -a albedo="$albedo" -q | cut -f 4)"
 }
 
-# fit NAME OPTION...: the exponent of a curve, and the verdict on it.
+# fit NAME OPTION...: the exponent of a curve and the verdict on it, which are printed:
+# the model, the exponent and its interval, the claim, the verdict and the doubt.
 fit() {
     fit=$1
     shift
     koksma-fit "$@" "$fit.errors" >"$fit.fit"
+    printf '%s\t' "$fit"
+    tail -n 1 "$fit.fit" | cut -f 1-4,6-8
 }
 
 # picture NAME TITLE CURVE...: the curves, each with its fit if it has one.
