@@ -121,11 +121,12 @@ script=$(KOKSMA_X=$column_x KOKSMA_Y=$column_y KOKSMA_LOG=$log KOKSMA_TITLE=$tit
 ' "$@") || exit 1
 
 # gnuplot does not notice a full disk, but cat does.  Warnings of gnuplot's, say of a
-# range that is a single number, are nothing to the one who asked for a picture.
+# range that is a single number, are nothing to the one who asked for a picture; and
+# 141, that the reader has left (SIGPIPE), is no failure.
 draw() {
     {
-        { printf '%s\n' "$script" | gnuplot -d 2>&3 || echo failed >&3; } |
-            cat 2>/dev/null >&4 || echo "cannot write" >&3
+        { printf '%s\n' "$script" | gnuplot -d 2>&3 || [ $? -eq 141 ] || echo failed >&3; } |
+            cat 2>/dev/null >&4 || [ $? -eq 141 ] || echo "cannot write" >&3
     } 3>&1
 }
 

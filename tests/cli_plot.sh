@@ -107,6 +107,8 @@ t no-gnuplot 1 "" "koksma-plot: gnuplot, which draws the pictures, is not instal
 printf '#!/bin/sh\necho half; echo "line 0: trouble" >&2; exit 1\n' >echoing/gnuplot
 t failing 1 "" "koksma-plot: gnuplot failed: line 0: trouble" 'koksma-plot -o half.svg summary'
 t failing-leaves-nothing 0 "" "" '[ ! -e half.svg ]'
+printf '#!/bin/sh\nyes\n' >echoing/gnuplot
+t closed-pipe 0 "y" "" 'koksma-plot summary | head -n 1'
 if [ -w /dev/full ]; then
     printf '#!/bin/sh\ncat\n' >echoing/gnuplot
     t full-disk 1 "" "koksma-plot: standard output: cannot write" 'koksma-plot summary >/dev/full'
