@@ -35,13 +35,16 @@ t tail 0 "1 .5 NaN NaN 1
 2 .25 NaN NaN .7
 
 1 1 NaN NaN 1" "" "koksma-plot <errors | $data"
+t one-n-a-set 0 "8 .5 NaN NaN NaN
+
+8 .25 NaN NaN NaN" "" "printf '# set N error\n1 8 .5\n2 8 -.25\n' | koksma-plot | $data"
 t by-number 0 "-.5 1 NaN NaN NaN
 .25 1 NaN NaN NaN
 .125 2 NaN NaN NaN" "" "koksma-plot -x3 --column-y=1 errors | $data"
 t points 0 "0 .5 NaN NaN NaN
 1 .25 NaN NaN NaN
 
-.5 .5 NaN NaN NaN" "" "printf '0,.5\r\n1 .25 # last\n\n\n.5 .5\n' | koksma-plot | $data"
+.5 .5 NaN NaN NaN" "" "printf '0,.5\r\n# input\n1 .25 # last\n\n\n.5 .5\n' | koksma-plot | $data"
 t values 0 "0.5 0.75 NaN NaN 0.8125" "" "echo .5 .75 | koksma-eval f2 -a .25 | koksma-plot | $data"
 t trace 0 "0.001 1 .25 1 NaN
 0.5 .5 .5 .5 NaN" "" \
@@ -60,6 +63,7 @@ has axes 0 'set logscale x' 'koksma-plot summary'
 has axes-told 0 'set logscale y' 'koksma-plot --log y -x3 -y1 errors'
 t axes-none 0 "" "" 'koksma-plot --log none summary | grep logscale; :'
 has title 0 "set title 'it''s' noenhanced" "koksma-plot --title \"it's\" summary"
+has title-with-sign 0 "set title 'a=b'" 'koksma-plot --title=a=b summary'
 has size-of-png 0 'pngcairo' 'koksma-plot -o p.png summary; cat p.png'
 
 # ---- Names, and where it goes -----------------------------------------------------------
