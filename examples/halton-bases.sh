@@ -2,7 +2,7 @@
 # Halton's large bases: the star discrepancy of the first N points in pairs of
 # neighbouring primes, and the error that they make for f2, a = 0, beside random points.
 . "$(dirname "$0")/common.sh"
-n=2^17
+n=2^17 path=2^19 # the largest error from N on is over all the path
 mkdir error
 
 measure() { # NAME WORD...: both, and the slope, of the points that the words make
@@ -11,7 +11,8 @@ measure() { # NAME WORD...: both, and the slope, of the points that the words ma
     koksma-points "$@" -n $n >points
     koksma-star --prefixes 2^4:$n points >"$name"
     koksma-fit --from 1024 "$name" >"$name.fit"
-    koksma-eval f2 points | koksma-error >"error/$name"
+    koksma-points "$@" -n $path --npy | koksma-eval f2 --npy |
+        koksma-error --exact 0.5 --prefixes 1:$n >"error/$name"
 }
 
 for bases in 2,3 11,13 23,29 41,43 67,71; do
