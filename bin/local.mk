@@ -19,3 +19,14 @@ bin_PROGRAMS += \
 %C%_koksma_l2_LDADD = $(tool_libs)
 %C%_koksma_points_LDADD = $(tool_libs)
 %C%_koksma_star_LDADD = $(tool_libs)
+
+# koksma-plot is a shell script that carries its awk programs, one file to install.
+bin_SCRIPTS = %D%/koksma-plot
+plot_parts  = %D%/plot_write.awk %D%/plot_read.awk
+EXTRA_DIST += %D%/plot.sh $(plot_parts)
+CLEANFILES += %D%/koksma-plot
+%D%/koksma-plot: %D%/plot.sh $(plot_parts) Makefile
+	$(AM_V_GEN)$(MKDIR_P) %D% && rm -f $@ && \
+	(cd $(srcdir) && $(SED) -e 's/@PLOT_VERSION@/$(VERSION)/' \
+	  -e '/^@PROGRAM@$$/!b' -e 'r bin/plot_write.awk' -e 'r bin/plot_read.awk' -e d \
+	  bin/plot.sh) >$@.tmp && chmod +x $@.tmp && mv $@.tmp $@
