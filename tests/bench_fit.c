@@ -32,31 +32,35 @@ static koksma_fit_result fit(path_kind kind, size_t replicates,
 
 static void bench_exponent(path_kind kind, koksma_fit_model model)
 {
-    double claim = koksma_fit_theory(koksma_integrand_find(kind.integrand)->dim);
+    size_t dim =
+        kind.dim > 0 ? kind.dim : koksma_integrand_find(kind.integrand)->dim;
+    double claim = koksma_fit_theory(dim);
     static const double rivals[] = {-0.5, -1.0};
 
     for (kind.seed = 1; kind.seed <= SEEDS; kind.seed++) {
         double started = bench_now();
         koksma_fit_result r = fit(kind, REPLICATES, model);
 
-        printf("%s\t%s\t%g\t%ju\t%ju\t%s\t%.4f\t%.4f\t%.4f\t%s\t%s\t%.4g\t%.3g\n",
-               kind.family, kind.integrand, kind.a, (uintmax_t)kind.n,
-               (uintmax_t)kind.seed, models[r.model], r.exponent.value.value,
-               r.exponent.se, claim,
-               verdicts[koksma_fit_judge(&r, claim, rivals, 2, 0.05).verdict],
-               shapes[r.shape], r.cross, bench_now() - started);
+        printf(
+            "%s\t%s\t%zu\t%g\t%ju\t%ju\t%s\t%.4f\t%.4f\t%.4f\t%s\t%s\t%.4g\t%.3g\n",
+            kind.family, kind.integrand, dim, kind.a, (uintmax_t)kind.n,
+            (uintmax_t)kind.seed, models[r.model], r.exponent.value.value,
+            r.exponent.se, claim,
+            verdicts[koksma_fit_judge(&r, claim, rivals, 2, 0.05).verdict],
+            shapes[r.shape], r.cross, bench_now() - started);
         fflush(stdout);
     }
 }
 
 int main(void)
 {
-    puts("# "
-         "points\tintegrand\ta\tN\tseed\tmodel\texponent\tse\ttheory\tverdict\tshap"
-         "e\tcross\t"
-         "seconds");
+    puts("# points\tintegrand\tdim\ta\tN\tseed\tmodel\texponent\tse\ttheory"
+         "\tverdict\tshape\tcross\tseconds");
     bench_exponent((path_kind){"halton", "f2", 0.0, 0, 1 << 17}, KOKSMA_FIT_AUTO);
     bench_exponent((path_kind){"halton", "f3", 0.0, 0, 1 << 17}, KOKSMA_FIT_AUTO);
+    for (size_t dim = 2; dim <= 4; dim++)
+        bench_exponent((path_kind){"halton", "ball", NAN, 0, 1 << 17, dim},
+                       KOKSMA_FIT_AUTO);
     bench_exponent((path_kind){"halton", "f2", 0.45, 0, 1 << 17},
                    KOKSMA_FIT_TWO_TERMS);
     bench_exponent((path_kind){"halton", "f2", 0.45, 0, 1 << 17},

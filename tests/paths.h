@@ -1,6 +1,7 @@
 #ifndef KOKSMA_TESTS_PATHS_H
 #define KOKSMA_TESTS_PATHS_H
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -17,8 +18,9 @@ enum { PATH_ROWS = 64, PATH_BLOCK = 4096 };
 /* Which experiment; Halton's digits are scrambled. */
 typedef struct path_kind {
     const char *family, *integrand;
-    double a;
+    double a; /* the parameter; NaN: the usual ones */
     uint64_t seed, n;
+    size_t dim; /* 0: the usual one */
 } path_kind;
 
 static inline void path_must(int status)
@@ -34,7 +36,7 @@ static inline void path_add(double *xs, double *ys, size_t *sets,
 {
     const koksma_gen_family *family = koksma_gen_find(kind.family);
     const koksma_integrand_row *integrand = koksma_integrand_find(kind.integrand);
-    koksma_gen_opts o = {.dim = integrand->dim,
+    koksma_gen_opts o = {.dim = kind.dim > 0 ? kind.dim : integrand->dim,
                          .n = kind.n,
                          .scramble = family->random ? KOKSMA_SCRAMBLE_NONE
                                                     : KOKSMA_SCRAMBLE_DIGITS,
@@ -49,7 +51,8 @@ static inline void path_add(double *xs, double *ys, size_t *sets,
     size_t count;
 
     path_must(x == NULL);
-    path_must((int)koksma_integrand_make(&f, &facts, integrand, 0, &kind.a, NULL));
+    path_must((int)koksma_integrand_make(&f, &facts, integrand, kind.dim,
+                                         isnan(kind.a) ? NULL : &kind.a, NULL));
     path_must((int)koksma_gen_open(&g, family, &o, NULL));
     path_must((int)koksma_curve_open(&c, 2, NULL));
     koksma_curve_begin(c, facts.integral);
