@@ -32,8 +32,7 @@ static koksma_fit_result fit(path_kind kind, size_t replicates,
 
 static void bench_exponent(path_kind kind, koksma_fit_model model)
 {
-    size_t dim =
-        kind.dim > 0 ? kind.dim : koksma_integrand_find(kind.integrand)->dim;
+    size_t dim = kind.dim > 0 ? kind.dim : path_row(kind)->dim;
     double claim = koksma_fit_theory(dim);
     static const double rivals[] = {-0.5, -1.0};
 
@@ -56,24 +55,28 @@ int main(void)
 {
     puts("# points\tintegrand\tdim\ta\tN\tseed\tmodel\texponent\tse\ttheory"
          "\tverdict\tshape\tcross\tseconds");
-    bench_exponent((path_kind){"halton", "f2", 0.0, 0, 1 << 17}, KOKSMA_FIT_AUTO);
-    bench_exponent((path_kind){"halton", "f3", 0.0, 0, 1 << 17}, KOKSMA_FIT_AUTO);
+    bench_exponent((path_kind){"halton", "f2", 0.0, 0, 1 << 17, 0},
+                   KOKSMA_FIT_AUTO);
+    bench_exponent((path_kind){"halton", "f3", 0.0, 0, 1 << 17, 0},
+                   KOKSMA_FIT_AUTO);
     for (size_t dim = 2; dim <= 4; dim++)
         bench_exponent((path_kind){"halton", "ball", NAN, 0, 1 << 17, dim},
                        KOKSMA_FIT_AUTO);
-    bench_exponent((path_kind){"halton", "f2", 0.45, 0, 1 << 17},
+    bench_exponent((path_kind){"halton", "sphere", NAN, 0, 1 << 17, 2},
+                   KOKSMA_FIT_AUTO);
+    bench_exponent((path_kind){"halton", "f2", 0.45, 0, 1 << 17, 0},
                    KOKSMA_FIT_TWO_TERMS);
-    bench_exponent((path_kind){"halton", "f2", 0.45, 0, 1 << 17},
+    bench_exponent((path_kind){"halton", "f2", 0.45, 0, 1 << 17, 0},
                    KOKSMA_FIT_TWO_POWERS);
-    bench_exponent((path_kind){"halton", "f2", 0.45, 0, 1 << 20},
+    bench_exponent((path_kind){"halton", "f2", 0.45, 0, 1 << 20, 0},
                    KOKSMA_FIT_TWO_TERMS);
-    bench_exponent((path_kind){"halton", "f2", 0.45, 0, 1 << 20},
+    bench_exponent((path_kind){"halton", "f2", 0.45, 0, 1 << 20, 0},
                    KOKSMA_FIT_TWO_POWERS);
     bench_header();
 
     double started = bench_now();
     koksma_fit_result r =
-        fit((path_kind){"halton", "f2", 0.0, 1, 1 << 17}, 32, KOKSMA_FIT_AUTO);
+        fit((path_kind){"halton", "f2", 0.0, 1, 1 << 17, 0}, 32, KOKSMA_FIT_AUTO);
 
     bench_row("f2, 32 replicates", started, 32.0 * (1 << 17), "points",
               r.exponent.value.value);

@@ -9,6 +9,7 @@
 #include "fit.h"
 #include "gen.h"
 #include "integrand.h"
+#include "scene.h"
 
 /* Error curves of replicates, made in memory: points, integrand, curve.  For tests
  * and benches; whatever fails ends the program. */
@@ -30,12 +31,19 @@ static inline void path_must(int status)
     abort();
 }
 
+static inline const koksma_integrand_row *path_row(path_kind kind)
+{
+    const koksma_integrand_row *row = koksma_integrand_find(kind.integrand);
+
+    return row != NULL ? row : koksma_scene_find(kind.integrand);
+}
+
 /* Append the errors of one replicate to d, at half octaves from 1 to n. */
 static inline void path_add(double *xs, double *ys, size_t *sets,
                             koksma_fit_data *d, path_kind kind, size_t replicate)
 {
     const koksma_gen_family *family = koksma_gen_find(kind.family);
-    const koksma_integrand_row *integrand = koksma_integrand_find(kind.integrand);
+    const koksma_integrand_row *integrand = path_row(kind);
     koksma_gen_opts o = {.dim = kind.dim > 0 ? kind.dim : integrand->dim,
                          .n = kind.n,
                          .scramble = family->random ? KOKSMA_SCRAMBLE_NONE

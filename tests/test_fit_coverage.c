@@ -15,9 +15,9 @@ static size_t of[2 * POOL * PATH_ROWS], each;
 
 static const koksma_fit_opts window = {.from = 16.0, .scale = 1.0};
 
-static const path_kind kinds[] = {{"halton", "f2", 0.0, 7, 1 << 17},
-                                  {"halton", "f3", 0.0, 7, 1 << 17},
-                                  {"random", "f2", 0.0, 7, 1 << 17}};
+static const path_kind kinds[] = {{"halton", "f2", 0.0, 7, 1 << 17, 0},
+                                  {"halton", "f3", 0.0, 7, 1 << 17, 0},
+                                  {"random", "f2", 0.0, 7, 1 << 17, 0}};
 
 static double fill_pool(path_kind kind)
 {
@@ -117,7 +117,7 @@ START_TEST(jump_in_the_plane)
 
         for (size_t r = 0; r < 32; r++)
             path_add(xs, ys, of, &d,
-                     (path_kind){"halton", "f2", 0.0, seed, 1 << 17}, r);
+                     (path_kind){"halton", "f2", 0.0, seed, 1 << 17, 0}, r);
         ck_assert_int_eq(koksma_fit(&f, d, &window, NULL), KOKSMA_OK);
         held += f.slope.value.lower <= -0.75 && f.slope.value.upper >= -0.75;
         widest = fmax(widest, f.slope.value.upper - f.slope.value.lower);
