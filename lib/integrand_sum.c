@@ -5,6 +5,7 @@
 
 #include "integrand_kernels.h"
 #include "num_kernels.h"
+#include "num_wide.h"
 
 enum { SLOPE, JUMP, THRESHOLD, BASE };
 
@@ -61,6 +62,29 @@ static koksma_range range(const koksma_integrand *f, const double *lower,
 
     return (koksma_range){{value_on(f, low, least), value_on(f, high, most)},
                           jump != 0.0 && some_above && !all_above};
+}
+
+/* The sums of the corners, and the threshold, in the common unit. */
+static koksma_meeting meets(const koksma_integrand *f, const koksma_cell_box *box)
+{
+    uint64_t unit = ki_common_unit(box, f->dim);
+    ki_u128 low = 0, high = 0;
+    ki_multiple at;
+
+    if (f->derived[JUMP] == 0.0 || f->derived[THRESHOLD] <= 0.0 ||
+        f->derived[THRESHOLD] >= (double)f->dim)
+        return KOKSMA_APART;
+    for (size_t k = 0; k < f->dim; k++) {
+        uint64_t weight = unit == box->cells[k] ? 1 : unit / box->cells[k];
+
+        low += (ki_u128)box->lower[k] * weight;
+        high += (ki_u128)box->upper[k] * weight;
+    }
+    at = ki_times(f->derived[THRESHOLD], unit);
+    if (low > at.floor || high < at.floor || (high == at.floor && !at.whole))
+        return KOKSMA_APART;
+    if (at.whole && (low == at.floor || high == at.floor)) return KOKSMA_TOUCHES;
+    return KOKSMA_CUTS;
 }
 
 /* ---- Facts ------------------------------------------------------------------- */
@@ -173,7 +197,7 @@ static void prepare_sum(koksma_integrand *f) { set(f, 1.0, 0.0, (double)f->dim);
 
 #define FUNCTIONS                                                                  \
     {                                                                              \
-        .value = value, .piece = piece, .range = range                             \
+        .value = value, .piece = piece, .range = range, .meets = meets             \
     }
 
 const koksma_integrand_row ki_row_f2 = {
