@@ -81,12 +81,14 @@ typedef struct koksma_cell_slope {
  * that are made by dividing cells into ratio^dim are counted at their own scales,
  * k = ratio^j, without what their larger pieces add at others.
  *
+ * In:      first  the count in the grid for n; NULL: not known yet
  * Returns: as koksma_grid_choose and koksma_cells_count
  *          KOKSMA_EINVAL: a ratio of 1
- * Cost:    about twice that of counting in the first */
+ * Cost:    about that of counting in the first, or twice that */
 enum { KOKSMA_SLOPE_SCALES = 6 };
 koksma_status koksma_cells_slope(koksma_cell_slope *out, const koksma_integrand *f,
                                  uint64_t n, const uint32_t *bases,
+                                 const koksma_cell_count *first,
                                  const koksma_cells_opts *opts, koksma_error *err);
 
 /* ---- Random lines, for any f ------------------------------------------------- */

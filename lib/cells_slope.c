@@ -47,6 +47,7 @@ static uint64_t coarser(uint64_t n, uint64_t ratio, size_t dim)
 
 koksma_status koksma_cells_slope(koksma_cell_slope *out, const koksma_integrand *f,
                                  uint64_t n, const uint32_t *bases,
+                                 const koksma_cell_count *first,
                                  const koksma_cells_opts *opts, koksma_error *err)
 {
     double k[KOKSMA_SLOPE_SCALES], count[KOKSMA_SLOPE_SCALES];
@@ -66,7 +67,10 @@ koksma_status koksma_cells_slope(koksma_cell_slope *out, const koksma_integrand 
         for (size_t j = 0; j < f->dim && status == KOKSMA_OK; j++)
             divided = divided && cells[j] > 1;
         if (status != KOKSMA_OK || !divided) break;
-        status = koksma_cells_count(&c, f, cells, opts, err);
+        if (scales == 0 && first != NULL)
+            c = *first;
+        else
+            status = koksma_cells_count(&c, f, cells, opts, err);
         if (status != KOKSMA_OK || c.lower == 0 || c.lower == c.total) break;
         k[scales] = pow((double)c.total, 1.0 / (double)f->dim);
         count[scales++] = (double)c.lower;

@@ -108,6 +108,9 @@ typedef struct koksma_param {
     koksma_param_kind kind;
 } koksma_param;
 
+/* Of f = smooth part + part with the jump. */
+typedef enum koksma_part { KOKSMA_PART_SMOOTH, KOKSMA_PART_JUMP } koksma_part;
+
 /* Sums, s = x_1 + ... + x_dim:
  *
  *     f2            a s + (1 - 2a) [s > 1]            dim 2, 0 <= a <= 1/2
@@ -157,7 +160,8 @@ typedef struct koksma_integrand_row {
     koksma_integrand functions;              /* value, piece, range, meets */
     void (*prepare)(koksma_integrand *f);    /* fills derived; may be NULL */
     void (*facts)(koksma_facts *out, const koksma_integrand *f);
-} koksma_integrand_row;
+    void (*split)(koksma_integrand *f, koksma_facts *facts, koksma_part part);
+} koksma_integrand_row; /* split may be NULL */
 
 /* All rows, ended by NULL. */
 extern const koksma_integrand_row *const koksma_integrands[];
@@ -179,5 +183,16 @@ size_t koksma_integrand_params(const koksma_integrand_row *row);
 koksma_status koksma_integrand_make(koksma_integrand *f, koksma_facts *facts,
                                     const koksma_integrand_row *row, size_t dim,
                                     const double *param, koksma_error *err);
+
+/* Make f, which was made of that row, one of the two parts that it is the sum of.
+ *
+ * The smooth part of a sum is a multiple of s, and the rest steps from one constant
+ * to another.  What is constant on each piece has the smooth part 0, and so has
+ * discontinuous, which varies on the one side and is 0 on the other; what does not
+ * jump is its own smooth part.  Neither part depends on how many points there are.
+ *
+ * In/out:  f, facts  as koksma_integrand_make left them */
+void koksma_integrand_split(koksma_integrand *f, koksma_facts *facts,
+                            const koksma_integrand_row *row, koksma_part part);
 
 #endif

@@ -156,6 +156,20 @@ static void facts_simplex(koksma_facts *out, const koksma_integrand *f)
     out->variance = out->integral * (1.0 - out->integral);
 }
 
+/* Without a slope all belongs to the jump, a constant too. */
+static void split(koksma_integrand *f, koksma_facts *out, koksma_part part)
+{
+    double *d = f->derived;
+    bool slopes = d[SLOPE] != 0.0;
+
+    if (part == KOKSMA_PART_SMOOTH) {
+        d[JUMP] = 0.0;
+        if (!slopes) d[BASE] = 0.0;
+    } else if (slopes)
+        d[SLOPE] = d[BASE] = 0.0;
+    facts(out, f);
+}
+
 /* ---- Rows -------------------------------------------------------------------- */
 
 static void set(koksma_integrand *f, double slope, double jump, double threshold)
@@ -211,6 +225,7 @@ const koksma_integrand_row ki_row_f2 = {
     .functions = FUNCTIONS,
     .prepare = prepare_f2,
     .facts = facts_half,
+    .split = split,
 };
 
 const koksma_integrand_row ki_row_f3 = {
@@ -224,6 +239,7 @@ const koksma_integrand_row ki_row_f3 = {
     .functions = FUNCTIONS,
     .prepare = prepare_f3,
     .facts = facts_half,
+    .split = split,
 };
 
 const koksma_integrand_row ki_row_halfspace = {
@@ -237,6 +253,7 @@ const koksma_integrand_row ki_row_halfspace = {
     .functions = FUNCTIONS,
     .prepare = prepare_halfspace,
     .facts = facts_halfspace,
+    .split = split,
 };
 
 const koksma_integrand_row ki_row_simplex = {
@@ -249,6 +266,7 @@ const koksma_integrand_row ki_row_simplex = {
     .functions = FUNCTIONS,
     .prepare = prepare_simplex,
     .facts = facts_simplex,
+    .split = split,
 };
 
 const koksma_integrand_row ki_row_mixture = {
@@ -262,6 +280,7 @@ const koksma_integrand_row ki_row_mixture = {
     .functions = FUNCTIONS,
     .prepare = prepare_mixture,
     .facts = facts_one,
+    .split = split,
 };
 
 const koksma_integrand_row ki_row_sum = {
@@ -274,4 +293,5 @@ const koksma_integrand_row ki_row_sum = {
     .functions = FUNCTIONS,
     .prepare = prepare_sum,
     .facts = facts_sum,
+    .split = split,
 };

@@ -13,6 +13,7 @@ noinst_LTLIBRARIES = %D%/libcore.la
   %D%/integrand.c %D%/integrand.h %D%/integrand_kernels.h \
   %D%/integrand_ball.c %D%/integrand_box.c %D%/integrand_fractal.c \
   %D%/integrand_koch.c %D%/integrand_product.c %D%/integrand_spline.c \
+  %D%/integrand_split.c \
   %D%/integrand_sum.c %D%/integrand_wave.c \
   %D%/io.c %D%/io.h %D%/io_kernels.h %D%/io_about.c %D%/io_lines.c %D%/io_npy.c \
   %D%/io_number.c %D%/io_table.c %D%/io_text.c %D%/io_write.c \
