@@ -143,8 +143,9 @@ static void check_grids(const char *name, const koksma_integrand *f,
                         const surface *s)
 {
     static const uint64_t most[] = {0, 40, 33, 12, 6};
-    static const uint64_t odd[][DIM_MOST] = {
-        {8, 9, 5, 7}, {1, 27, 4, 5}, {16, 3, 1, 1}, {32, 9, 5, 1}, {1, 1, 1, 7}};
+    static const uint64_t odd[][DIM_MOST] = {{8, 9, 5, 7},  {1, 27, 4, 5},
+                                             {16, 3, 1, 1}, {32, 9, 5, 1},
+                                             {1, 1, 1, 7},  {8, 1, 1, 1}};
     uint64_t cells[DIM_MOST];
 
     for (cells[0] = 1; cells[0] <= most[s->dim]; cells[0]++) {
