@@ -293,6 +293,28 @@ START_TEST(no_rounding)
 }
 END_TEST
 
+/* Where squares need more than 64 bits: tangents to faces of cells, and cells on
+ * both sides of them. */
+START_TEST(no_rounding_of_squares)
+{
+    const uint64_t eighth = ((uint64_t)1 << 32) + 1, cells[] = {8 * eighth, 2};
+    const koksma_meeting want[] = {KOKSMA_APART, KOKSMA_TOUCHES, KOKSMA_CUTS};
+    double r = 0.375;
+    koksma_integrand f = fixture_make(NULL, "ball", 2, &r);
+
+    for (uint64_t i = 0; i < 3; i++) {
+        uint64_t lower[] = {eighth - 2 + i, 0}, upper[] = {eighth - 1 + i, 1};
+
+        ck_assert_int_eq(f.meets(&f, &(koksma_cell_box){lower, upper, cells}),
+                         want[i]);
+        lower[0] = 7 * eighth + 1 - i;
+        upper[0] = lower[0] + 1;
+        ck_assert_int_eq(f.meets(&f, &(koksma_cell_box){lower, upper, cells}),
+                         want[i]);
+    }
+}
+END_TEST
+
 /* A function of the caller's own, with a range and nothing else. */
 static double disc(const koksma_integrand *f, const double *x)
 {
@@ -346,6 +368,48 @@ START_TEST(divided_cells)
 }
 END_TEST
 
+/* Cells that are not divided are touched where a neighbour, at a corner too, has
+ * the other value, and are not where all neighbours are as they are. */
+START_TEST(touched_cells)
+{
+    for (int pattern = 1; pattern < 20; pattern++) {
+        const double param[] = {5, pattern};
+        const uint64_t cells[] = {5, 5};
+        koksma_integrand f = fixture_make(NULL, "fractal2", 2, param);
+        int state[7][7]; /* 0 and 1: out and in; 2: divided; 3: beyond the square */
+
+        for (uint64_t i = 0; i < 49; i++) {
+            uint64_t lower[] = {i / 7 - 1, i % 7 - 1}, upper[] = {i / 7, i % 7};
+            koksma_cell_box box = {lower, upper, cells};
+            double x[] = {((double)(i / 7) - 0.5) / 5, ((double)(i % 7) - 0.5) / 5};
+            bool beyond = i / 7 % 6 == 0 || i % 7 % 6 == 0;
+
+            state[i / 7][i % 7] = beyond ? 3
+                                  : f.meets(&f, &box) == KOKSMA_CUTS
+                                      ? 2
+                                      : f.value(&f, x) > 0;
+        }
+        for (uint64_t i = 1; i < 6; i++)
+            for (uint64_t j = 1; j < 6; j++) {
+                uint64_t lower[] = {i - 1, j - 1}, upper[] = {i, j};
+                koksma_cell_box box = {lower, upper, cells};
+                int own = state[i][j], other = 0, divided = 0;
+
+                for (uint64_t n = 0; n < 9; n++) {
+                    int s = state[i + n / 3 - 1][j + n % 3 - 1];
+
+                    other += s < 2 && s != own;
+                    divided += s == 2;
+                }
+                if (own == 2) continue;
+                if (other > 0) ck_assert(f.meets(&f, &box) == KOKSMA_TOUCHES);
+                if (other + divided == 0)
+                    ck_assert(f.meets(&f, &box) == KOKSMA_APART);
+            }
+    }
+}
+END_TEST
+
 static bool values_differ(const koksma_integrand *f, const uint64_t *at,
                           const uint64_t *cells, size_t points, oracle_rng *rng)
 {
@@ -389,6 +453,41 @@ START_TEST(fractals_by_points)
                           "%s: %ju cells, %ju seen", names[i], (uintmax_t)c.lower,
                           (uintmax_t)seen);
         }
+}
+END_TEST
+
+/* Over k = 31, 15, 7, 3, by hand. */
+START_TEST(slope)
+{
+    koksma_integrand f = fixture_make(NULL, "ball", 2, NULL);
+    double x[4], y[4], mean_x = 0.0, mean_y = 0.0, xx = 0.0, xy = 0.0;
+    koksma_cell_slope s;
+    koksma_cell_count first;
+
+    for (int i = 0; i < 4; i++) {
+        uint64_t k = ((uint64_t)32 >> i) - 1, cells[] = {k, k};
+        koksma_cell_count c = count(&f, cells);
+
+        if (i == 0) first = c;
+        x[i] = log((double)k);
+        y[i] = log((double)c.lower);
+        mean_x += x[i] / 4;
+        mean_y += y[i] / 4;
+    }
+    for (int i = 0; i < 4; i++) {
+        xx += (x[i] - mean_x) * (x[i] - mean_x);
+        xy += (x[i] - mean_x) * (y[i] - mean_y);
+    }
+    for (int known = 0; known < 2; known++) {
+        ck_assert_int_eq(koksma_cells_slope(&s, &f, 1023, NULL,
+                                            known ? &first : NULL, NULL, NULL),
+                         0);
+        ck_assert_double_eq_tol(s.value, xy / xx, 1e-12);
+        ck_assert_double_eq_tol(
+            s.bend, (y[0] - y[1]) / (x[0] - x[1]) - (y[2] - y[3]) / (x[2] - x[3]),
+            1e-12);
+        ck_assert_uint_eq(s.scales, 4);
+    }
 }
 END_TEST
 
@@ -614,6 +713,9 @@ int main(void)
     tcase_add_test(counts, nothing_to_meet);
     tcase_add_test(counts, fine_grids);
     tcase_add_test(counts, no_rounding);
+    tcase_add_test(counts, no_rounding_of_squares);
+    tcase_add_test(counts, touched_cells);
+    tcase_add_test(counts, slope);
     tcase_add_test(counts, a_range_is_enough);
     tcase_add_test(counts, divided_cells);
     tcase_add_test(counts, fractals_by_points);

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cells.h"
+#include "cells_kernels.h"
 #include "integrand_fixture.h"
 #include "oracle.h"
 
@@ -67,6 +67,53 @@ START_TEST(extents_by_lines)
     check_lines("f2", 2, &a);
     check_lines("f3", 3, &a);
     check_lines("simplex", 3, NULL);
+}
+END_TEST
+
+/* Lines that are uniform among all enter a face uniformly, along ways that are
+ * uniform in the ball of dim - 1 dimensions where the face sees them: there the
+ * mean of t_k^2 is 1/(dim+1), and that of t_k^4 is 3/((dim+1)(dim+3)). */
+START_TEST(ways_of_lines)
+{
+    enum { LINES = 40000 };
+
+    for (size_t dim = 1; dim <= 7; dim++) {
+        double start[7], way[7], room[9], squares = 0.0, fourths = 0.0, n = 0.0;
+        ki_line line = {start, way, 0.0};
+        koksma_rng rng = koksma_rng_seed(oracle_seed(), dim);
+        size_t entered[7][2] = {{0}};
+
+        for (int i = 0; i < LINES; i++) {
+            double norm = 0.0;
+            size_t axis = 0;
+
+            ki_line_across(&line, dim, room, &rng);
+            while (axis < dim && start[axis] != 0.0 && start[axis] != 1.0)
+                axis++;
+            ck_assert(axis < dim);
+            entered[axis][start[axis] == 1.0]++;
+            for (size_t k = 0; k < dim; k++) {
+                double end = start[k] + line.length * way[k];
+
+                ck_assert(end > -1e-12 && end < 1.0 + 1e-12);
+                norm += way[k] * way[k];
+                if (k == axis) continue;
+                squares += way[k] * way[k];
+                fourths += pow(way[k], 4.0);
+                n += 1.0;
+            }
+            ck_assert_double_eq_tol(norm, 1.0, 1e-12);
+        }
+        for (size_t k = 0; k < dim; k++)
+            for (int side = 0; side < 2; side++)
+                ck_assert_double_eq_tol((double)entered[k][side],
+                                        LINES / (2.0 * (double)dim),
+                                        5.0 * sqrt(LINES / 2.0 / (double)dim));
+        if (dim == 1) continue;
+        ck_assert_double_eq_tol(squares / n * (double)(dim + 1), 1.0, 0.03);
+        ck_assert_double_eq_tol(fourths / n * (double)((dim + 1) * (dim + 3)), 3.0,
+                                0.2);
+    }
 }
 END_TEST
 
@@ -397,7 +444,7 @@ START_TEST(neighbours)
 {
     const double x[] = {.1, .1, .5, .1, .9, .1, .1, .5, .5,
                         .5, .9, .5, .1, .9, .5, .9, .5, .5};
-    const double f[] = {0, 0, 9, 0, 5, 5, 5, 5, 0};
+    const double f[] = {0, 0, 9, 0, 5, 5, 5, 5, 20};
     koksma_samples_result r = sample((koksma_points){x, 9, 2}, f, 3, 2.0);
 
     /* Along x 5 pairs, of which 2 differ; along y 5, of which 3 do. */
@@ -453,6 +500,7 @@ START_TEST(points_in_cells)
                 uint64_t at = oracle_below(&rng, (1u << 20) + 1);
 
                 if (round % 3 == 0) at = at >> 18 << 18; /* faces of cells */
+                if (oracle_below(&rng, 8) == 0) at = 1u << 20;
                 x[3 * i + k] = ldexp((double)at, -20);
                 at = at * cells[k] >> 20;
                 cell = cell * cells[k] + (at < cells[k] ? at : cells[k] - 1);
@@ -562,6 +610,7 @@ int main(void)
     TCase *points = tcase_create("points");
 
     tcase_add_test(lines, extents_by_lines);
+    tcase_add_test(lines, ways_of_lines);
     tcase_add_test(lines, slopes_are_no_jumps);
     tcase_add_test(lines, jumps_within_a_step);
     tcase_add_test(lines, faces_of_the_cube);
