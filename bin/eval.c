@@ -5,10 +5,9 @@
 #include <string.h>
 
 #include "cli.h"
-#include "integrand.h"
-#include "scene.h"
+#include "cli_integrand.h"
 
-enum { NPY = CLI_LONG, HEX, LIST, BOUNCES, ALBEDO, CAP };
+enum { NPY = CLI_LONG, HEX, LIST, BOUNCES, ALBEDO, CAP, PIECE };
 
 static const cli_option options[] = {
     {'a', "parameter", "NAME=V", "a parameter of the integrand; V: the first"},
@@ -16,6 +15,7 @@ static const cli_option options[] = {
     {BOUNCES, "bounces", "N", "steps of a walk in the scene, two coordinates each"},
     {ALBEDO, "albedo", "V", "as -a albedo=V: the share that a bounce keeps"},
     {CAP, "cap", "V", "as -a cap=V: the light's share of the sphere"},
+    {PIECE, "piece", "PART", "of the integrand alone: smooth or jump"},
     {NPY, "npy", NULL, "write NumPy arrays"},
     {HEX, "hex", NULL, "write hexadecimal numbers"},
     {LIST, "list", NULL, "list what is known of the integrand, or of all"},
@@ -26,25 +26,14 @@ static const cli_tool tool = {"koksma-eval", "INTEGRAND [FILE]...",
                               "Append an integrand's value to each point.",
                               options};
 
-enum { BLOCK = 4096, SETTINGS_MOST = 16, HITS_LEAST = 10 };
-
-/* What the command line asks for. */
-typedef struct request {
-    const koksma_integrand_row *row;
-    size_t dim, bounces; /* 0: the usual one */
-    double param[KOKSMA_PARAMS_MOST];
-    struct {
-        const char *option, *name,
-            *text; /* name NULL: part of text, or the first */
-    } settings[SETTINGS_MOST];
-    size_t count;
-} request;
+enum { BLOCK = 4096, HITS_LEAST = 10 };
 
 /* An integrand and where its values go. */
 typedef struct job {
     const koksma_integrand_row *row;
     koksma_integrand f;
     koksma_facts facts;
+    const char *part; /* NULL: the whole integrand */
     koksma_form form;
     double *x, *rows, *values;
     size_t walks, hits; /* of the current set */
@@ -52,76 +41,32 @@ typedef struct job {
     size_t worst_hits, worst_walks;
 } job;
 
-/* ---- The command line -------------------------------------------------------- */
-
-static const koksma_integrand_row *find_row(const char *name)
+/* The part of f that is called so; all of it if part is NULL. */
+static void take_part(koksma_integrand *f, koksma_facts *facts,
+                      const koksma_integrand_row *row, const char *part)
 {
-    const koksma_integrand_row *row = koksma_integrand_find(name);
-
-    if (row == NULL) row = koksma_scene_find(name);
-    if (row == NULL)
-        cli_usage("no integrand is called \"%s\"; --list lists them", name);
-    return row;
+    if (part == NULL) return;
+    koksma_integrand_split(f, facts, row,
+                           part[0] == 's' ? KOKSMA_PART_SMOOTH : KOKSMA_PART_JUMP);
 }
 
-static void add_setting(request *r, const char *option, const char *name)
+static const char *read_part(const char *text)
 {
-    if (r->count == SETTINGS_MOST)
-        cli_usage("more than %d parameters", SETTINGS_MOST);
-    r->settings[r->count].option = option;
-    r->settings[r->count].name = name;
-    r->settings[r->count++].text = optarg;
-}
-
-/* Where the row keeps the parameter whose name has that length. */
-static double *find_param(request *r, const char *name, size_t length)
-{
-    for (size_t i = 0; i < koksma_integrand_params(r->row); i++)
-        if (strlen(r->row->params[i].name) == length &&
-            strncmp(r->row->params[i].name, name, length) == 0)
-            return &r->param[i];
-    cli_usage("%s has no parameter %.*s", r->row->name, (int)length, name);
-}
-
-static void apply_settings(request *r)
-{
-    for (size_t i = 0; i < koksma_integrand_params(r->row); i++)
-        r->param[i] = r->row->params[i].usual;
-    for (size_t i = 0; i < r->count; i++) {
-        const char *name = r->settings[i].name, *text = r->settings[i].text;
-        const char *sign = name == NULL ? strchr(text, '=') : NULL;
-        double *param;
-
-        if (name != NULL)
-            param = find_param(r, name, strlen(name));
-        else if (sign != NULL)
-            param = find_param(r, text, (size_t)(sign - text));
-        else if (koksma_integrand_params(r->row) > 0)
-            param = &r->param[0];
-        else
-            cli_usage("%s has no parameters", r->row->name);
-        *param = cli_real(r->settings[i].option, sign != NULL ? sign + 1 : text,
-                          -1e300, 1e300);
-    }
-}
-
-static void apply_bounces(request *r)
-{
-    if (r->bounces == 0) return;
-    if (koksma_scene_find(r->row->name) == NULL)
-        cli_usage("%s has no bounces", r->row->name);
-    r->dim = r->row->dim_least + 2 * (r->bounces - 1);
+    if (strcmp(text, "smooth") != 0 && strcmp(text, "jump") != 0)
+        cli_usage("--piece takes smooth or jump, not \"%s\"", text);
+    return text;
 }
 
 /* ---- --list ------------------------------------------------------------------ */
 
 static void list_row(const koksma_integrand_row *row, size_t dim,
-                     const double *param)
+                     const double *param, const char *part)
 {
     koksma_integrand f;
     koksma_facts k;
 
     if (koksma_integrand_make(&f, &k, row, dim, param, NULL)) return;
+    take_part(&f, &k, row, part);
 
     const double known[] = {k.integral, k.error,  k.variance, k.jump,
                             k.jump_rms, k.area,   k.extent,   k.axes,
@@ -140,23 +85,30 @@ static void list_row(const koksma_integrand_row *row, size_t dim,
     printf("\t%s\n", row->summary);
 }
 
-_Noreturn static void list_integrands(const request *r)
+_Noreturn static void list_integrands(const cli_integrand *r, const char *part)
 {
     if (!cli_quiet())
         puts("# integrand\tdim\tparameters\tintegral\terror\tvariance\tjump\t"
              "jump_rms\tarea\textent\taxes\tbox_dim\tpieces\tvariation\tsummary");
     if (r->row != NULL) {
-        list_row(r->row, r->dim, r->param);
+        list_row(r->row, r->dim, r->param, part);
         cli_finish(CLI_DONE);
     }
     for (size_t i = 0; koksma_integrands[i] != NULL; i++)
-        list_row(koksma_integrands[i], r->dim, NULL);
+        list_row(koksma_integrands[i], r->dim, NULL, part);
     for (size_t i = 0; koksma_scenes[i] != NULL; i++)
-        list_row(koksma_scenes[i], r->dim, NULL);
+        list_row(koksma_scenes[i], r->dim, NULL, part);
     cli_finish(CLI_DONE);
 }
 
 /* ---- Values ------------------------------------------------------------------ */
+
+/* Whether the values are those of walks in the scene. */
+static bool has_walks(const job *j)
+{
+    return koksma_scene_find(j->row->name) != NULL &&
+           (j->part == NULL || j->part[0] == 'j');
+}
 
 static void print_key(const char *key, double v)
 {
@@ -168,10 +120,11 @@ static void print_key(const char *key, double v)
 /* What is known of the values: the tools further down need not be told. */
 static void print_comment(const job *j, const char *about)
 {
-    bool scene = koksma_scene_find(j->row->name) != NULL;
+    bool scene = has_walks(j);
 
     if (cli_quiet()) return;
     printf("# koksma:%s integrand=%s dim=%zu", about, j->row->name, j->f.dim);
+    if (j->part != NULL) printf(" piece=%s", j->part);
     if (scene) printf(" bounces=%zu", koksma_scene_bounces(&j->f));
     for (size_t i = 0; i < koksma_integrand_params(j->row); i++)
         print_key(j->row->params[i].name, j->f.param[i]);
@@ -248,7 +201,7 @@ static void count_hits(job *j)
 
 static void note_poor_sets(const job *j)
 {
-    if (j->poor == 0 || koksma_scene_find(j->row->name) == NULL) return;
+    if (j->poor == 0 || !has_walks(j)) return;
     if (j->sets == 1)
         cli_note("under-resolved: %zu of %zu walks hit", j->worst_hits,
                  j->worst_walks);
@@ -262,7 +215,8 @@ static void note_poor_sets(const job *j)
 /* ---- The tool ---------------------------------------------------------------- */
 
 /* The points say the dimension, unless it was told. */
-static void begin(job *j, const request *r, const cli_input *input, size_t columns)
+static void begin(job *j, const cli_integrand *r, const cli_input *input,
+                  size_t columns)
 {
     size_t dim = r->dim > 0 ? r->dim : columns;
     koksma_error err;
@@ -272,6 +226,7 @@ static void begin(job *j, const request *r, const cli_input *input, size_t colum
                  input->label, columns, r->row->name, dim);
     if (koksma_integrand_make(&j->f, &j->facts, r->row, dim, r->param, &err))
         cli_fail("set %s has %s", input->label, err.text);
+    take_part(&j->f, &j->facts, r->row, j->part);
     j->row = r->row;
     j->x = malloc(BLOCK * dim * sizeof *j->x);
     j->rows = malloc(BLOCK * (dim + 1) * sizeof *j->rows);
@@ -280,9 +235,10 @@ static void begin(job *j, const request *r, const cli_input *input, size_t colum
         cli_fail("not enough memory");
 }
 
-static void eval_inputs(const request *r, cli_input *input, koksma_form form)
+static void eval_inputs(const cli_integrand *r, const char *part, cli_input *input,
+                        koksma_form form)
 {
-    job j = {.form = form};
+    job j = {.form = form, .part = part};
     size_t columns;
 
     while (cli_next_set(input, &columns)) {
@@ -308,7 +264,8 @@ static void eval_inputs(const request *r, cli_input *input, koksma_form form)
 int main(int argc, char *argv[])
 {
     koksma_form form = KOKSMA_DECIMAL;
-    request r = {0};
+    cli_integrand r = {0};
+    const char *part = NULL;
     bool list = false;
     koksma_integrand f;
     koksma_error err;
@@ -316,28 +273,27 @@ int main(int argc, char *argv[])
 
     while ((c = cli_next(&tool, argc, argv)) != -1)
         switch (c) {
-        case 'a': add_setting(&r, "-a", NULL); break;
+        case 'a': cli_integrand_set(&r, "-a", NULL); break;
         case 'd': r.dim = cli_count("-d", optarg, 1, 10000); break;
         case BOUNCES: r.bounces = cli_count("--bounces", optarg, 1, 1000); break;
-        case ALBEDO: add_setting(&r, "--albedo", "albedo"); break;
-        case CAP: add_setting(&r, "--cap", "cap"); break;
+        case ALBEDO: cli_integrand_set(&r, "--albedo", "albedo"); break;
+        case CAP: cli_integrand_set(&r, "--cap", "cap"); break;
+        case PIECE: part = read_part(optarg); break;
         case NPY: form = KOKSMA_NPY; break;
         case HEX: form = KOKSMA_HEX; break;
         case LIST: list = true; break;
         }
     if (optind < argc) {
-        r.row = find_row(argv[optind++]);
-        apply_settings(&r);
-        apply_bounces(&r);
+        cli_integrand_choose(&r, argv[optind++]);
         if (koksma_integrand_make(&f, NULL, r.row, r.dim, r.param, &err))
             cli_usage("%s", err.text);
     } else if (!list || r.count > 0) {
         cli_usage("name an integrand; --list lists them");
     }
-    if (list) list_integrands(&r);
+    if (list) list_integrands(&r, part);
 
     cli_input input = cli_inputs(argc, argv, KOKSMA_POINTS);
 
-    eval_inputs(&r, &input, form);
+    eval_inputs(&r, part, &input, form);
     cli_finish(CLI_DONE);
 }

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "integrand_kernels.h"
+#include "num_wide.h"
 
 enum { C };
 
@@ -25,6 +26,34 @@ static koksma_range range(const koksma_integrand *f, const double *lower,
     }
     return (koksma_range){{within ? 1.0 : 0.0, meets ? 1.0 : 0.0},
                           meets && !within};
+}
+
+/* The box of cells has points in the corner box and out of it.  Both are so with
+ * room to spare where the inside has such points, and for its closure without.  No
+ * branch depends on where it lies. */
+koksma_meeting ki_meets_corner(double c, size_t axes, const koksma_cell_box *box)
+{
+    bool in = true, out = false, reaches_in = true, reaches_out = false;
+
+    if (c <= 0.0 || c >= 1.0) return KOKSMA_APART;
+    for (size_t k = 0; k < axes; k++) {
+        ki_multiple at = ki_times(c, box->cells[k]);
+        uint64_t below = (uint64_t)at.floor, lower = box->lower[k],
+                 upper = box->upper[k];
+
+        bool under = lower<below, over = upper> below;
+
+        in &= under | ((lower == below) & !at.whole);
+        out |= over;
+        reaches_in &= lower <= below;
+        reaches_out |= over | ((upper == below) & at.whole);
+    }
+    return (koksma_meeting)((reaches_in & reaches_out) + (in & out));
+}
+
+static koksma_meeting meets(const koksma_integrand *f, const koksma_cell_box *box)
+{
+    return ki_meets_corner(f->param[C], f->dim, box);
 }
 
 static void facts(koksma_facts *out, const koksma_integrand *f)
@@ -50,6 +79,9 @@ const koksma_integrand_row ki_row_box = {
     .dim_most = 50,
     .dim_step = 1,
     .params = {{"c", 0.7, 0.0, 1.0, KOKSMA_CLOSED}},
-    .functions = {.value = value, .piece = ki_piece_by_value, .range = range},
+    .functions = {.value = value,
+                  .piece = ki_piece_by_value,
+                  .range = range,
+                  .meets = meets},
     .facts = facts,
 };
