@@ -14,5 +14,6 @@
 #include <koksma/rng.h>
 #include <koksma/scene.h>
 #include <koksma/star.h>
+#include <koksma/variation.h>
 
 #endif
