@@ -5,8 +5,7 @@
 #include <string.h>
 
 #include "cli.h"
-#include "integrand.h"
-#include "scene.h"
+#include "cli_integrand.h"
 
 enum { NPY = CLI_LONG, HEX, LIST, BOUNCES, ALBEDO, CAP };
 
@@ -26,19 +25,7 @@ static const cli_tool tool = {"koksma-eval", "INTEGRAND [FILE]...",
                               "Append an integrand's value to each point.",
                               options};
 
-enum { BLOCK = 4096, SETTINGS_MOST = 16, HITS_LEAST = 10 };
-
-/* What the command line asks for. */
-typedef struct request {
-    const koksma_integrand_row *row;
-    size_t dim, bounces; /* 0: the usual one */
-    double param[KOKSMA_PARAMS_MOST];
-    struct {
-        const char *option, *name,
-            *text; /* name NULL: part of text, or the first */
-    } settings[SETTINGS_MOST];
-    size_t count;
-} request;
+enum { BLOCK = 4096, HITS_LEAST = 10 };
 
 /* An integrand and where its values go. */
 typedef struct job {
@@ -51,67 +38,6 @@ typedef struct job {
     size_t sets, poor;  /* sets, and those with less than HITS_LEAST hits */
     size_t worst_hits, worst_walks;
 } job;
-
-/* ---- The command line -------------------------------------------------------- */
-
-static const koksma_integrand_row *find_row(const char *name)
-{
-    const koksma_integrand_row *row = koksma_integrand_find(name);
-
-    if (row == NULL) row = koksma_scene_find(name);
-    if (row == NULL)
-        cli_usage("no integrand is called \"%s\"; --list lists them", name);
-    return row;
-}
-
-static void add_setting(request *r, const char *option, const char *name)
-{
-    if (r->count == SETTINGS_MOST)
-        cli_usage("more than %d parameters", SETTINGS_MOST);
-    r->settings[r->count].option = option;
-    r->settings[r->count].name = name;
-    r->settings[r->count++].text = optarg;
-}
-
-/* Where the row keeps the parameter whose name has that length. */
-static double *find_param(request *r, const char *name, size_t length)
-{
-    for (size_t i = 0; i < koksma_integrand_params(r->row); i++)
-        if (strlen(r->row->params[i].name) == length &&
-            strncmp(r->row->params[i].name, name, length) == 0)
-            return &r->param[i];
-    cli_usage("%s has no parameter %.*s", r->row->name, (int)length, name);
-}
-
-static void apply_settings(request *r)
-{
-    for (size_t i = 0; i < koksma_integrand_params(r->row); i++)
-        r->param[i] = r->row->params[i].usual;
-    for (size_t i = 0; i < r->count; i++) {
-        const char *name = r->settings[i].name, *text = r->settings[i].text;
-        const char *sign = name == NULL ? strchr(text, '=') : NULL;
-        double *param;
-
-        if (name != NULL)
-            param = find_param(r, name, strlen(name));
-        else if (sign != NULL)
-            param = find_param(r, text, (size_t)(sign - text));
-        else if (koksma_integrand_params(r->row) > 0)
-            param = &r->param[0];
-        else
-            cli_usage("%s has no parameters", r->row->name);
-        *param = cli_real(r->settings[i].option, sign != NULL ? sign + 1 : text,
-                          -1e300, 1e300);
-    }
-}
-
-static void apply_bounces(request *r)
-{
-    if (r->bounces == 0) return;
-    if (koksma_scene_find(r->row->name) == NULL)
-        cli_usage("%s has no bounces", r->row->name);
-    r->dim = r->row->dim_least + 2 * (r->bounces - 1);
-}
 
 /* ---- --list ------------------------------------------------------------------ */
 
@@ -140,7 +66,7 @@ static void list_row(const koksma_integrand_row *row, size_t dim,
     printf("\t%s\n", row->summary);
 }
 
-_Noreturn static void list_integrands(const request *r)
+_Noreturn static void list_integrands(const cli_integrand *r)
 {
     if (!cli_quiet())
         puts("# integrand\tdim\tparameters\tintegral\terror\tvariance\tjump\t"
@@ -262,7 +188,8 @@ static void note_poor_sets(const job *j)
 /* ---- The tool ---------------------------------------------------------------- */
 
 /* The points say the dimension, unless it was told. */
-static void begin(job *j, const request *r, const cli_input *input, size_t columns)
+static void begin(job *j, const cli_integrand *r, const cli_input *input,
+                  size_t columns)
 {
     size_t dim = r->dim > 0 ? r->dim : columns;
     koksma_error err;
@@ -280,7 +207,7 @@ static void begin(job *j, const request *r, const cli_input *input, size_t colum
         cli_fail("not enough memory");
 }
 
-static void eval_inputs(const request *r, cli_input *input, koksma_form form)
+static void eval_inputs(const cli_integrand *r, cli_input *input, koksma_form form)
 {
     job j = {.form = form};
     size_t columns;
@@ -308,7 +235,7 @@ static void eval_inputs(const request *r, cli_input *input, koksma_form form)
 int main(int argc, char *argv[])
 {
     koksma_form form = KOKSMA_DECIMAL;
-    request r = {0};
+    cli_integrand r = {0};
     bool list = false;
     koksma_integrand f;
     koksma_error err;
@@ -316,19 +243,17 @@ int main(int argc, char *argv[])
 
     while ((c = cli_next(&tool, argc, argv)) != -1)
         switch (c) {
-        case 'a': add_setting(&r, "-a", NULL); break;
+        case 'a': cli_integrand_set(&r, "-a", NULL); break;
         case 'd': r.dim = cli_count("-d", optarg, 1, 10000); break;
         case BOUNCES: r.bounces = cli_count("--bounces", optarg, 1, 1000); break;
-        case ALBEDO: add_setting(&r, "--albedo", "albedo"); break;
-        case CAP: add_setting(&r, "--cap", "cap"); break;
+        case ALBEDO: cli_integrand_set(&r, "--albedo", "albedo"); break;
+        case CAP: cli_integrand_set(&r, "--cap", "cap"); break;
         case NPY: form = KOKSMA_NPY; break;
         case HEX: form = KOKSMA_HEX; break;
         case LIST: list = true; break;
         }
     if (optind < argc) {
-        r.row = find_row(argv[optind++]);
-        apply_settings(&r);
-        apply_bounces(&r);
+        cli_integrand_choose(&r, argv[optind++]);
         if (koksma_integrand_make(&f, NULL, r.row, r.dim, r.param, &err))
             cli_usage("%s", err.text);
     } else if (!list || r.count > 0) {

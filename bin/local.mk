@@ -1,12 +1,12 @@
 # The tools are installed as koksma-<tool>, one file each over cli.
 noinst_LTLIBRARIES += %D%/libcli.la
 %C%_libcli_la_SOURCES = %D%/cli.h %D%/cli.c %D%/cli_input.c %D%/cli_prefixes.c \
-  %D%/cli_watch.c
+  %D%/cli_watch.c %D%/cli_integrand.h %D%/cli_integrand.c
 tool_libs = %D%/libcli.la lib/libkoksma.la
 
 bin_PROGRAMS += \
   %D%/koksma-error %D%/koksma-eval %D%/koksma-fit %D%/koksma-l2 \
-  %D%/koksma-points %D%/koksma-star
+  %D%/koksma-points %D%/koksma-star %D%/koksma-variation
 %C%_koksma_error_SOURCES  = %D%/error.c %D%/error_report.h %D%/error_report.c
 %C%_koksma_eval_SOURCES   = %D%/eval.c
 %C%_koksma_fit_SOURCES    = %D%/fit.c %D%/fit_report.h %D%/fit_report.c
@@ -19,3 +19,6 @@ bin_PROGRAMS += \
 %C%_koksma_l2_LDADD = $(tool_libs)
 %C%_koksma_points_LDADD = $(tool_libs)
 %C%_koksma_star_LDADD = $(tool_libs)
+%C%_koksma_variation_SOURCES = %D%/variation.c %D%/variation_report.h \
+  %D%/variation_report.c %D%/variation_run.h %D%/variation_run.c
+%C%_koksma_variation_LDADD = $(tool_libs)

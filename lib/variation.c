@@ -253,7 +253,7 @@ static koksma_status measure(koksma_variation_result *r, koksma_estimate *faces,
         return add_trees(r, faces, f, finest, err);
     }
     if (finest == 0)
-        finest = f->dim <= 4 || method == KOKSMA_VARIATION_GRID ? dense : 64;
+        finest = f->dim <= 4 || o->method == KOKSMA_VARIATION_GRID ? dense : 64;
     if (method == KOKSMA_VARIATION_RANDOM)
         return add_random(r, faces, f, 2, finest, o, err);
     if (o->method == KOKSMA_VARIATION_GRID || dense > finest) dense = finest;

@@ -34,7 +34,8 @@ unit_tests = \
   %D%/test_io_number %D%/test_io_reader %D%/test_io_table %D%/test_io_write \
   %D%/test_known %D%/test_l2 %D%/test_num %D%/test_part %D%/test_points \
   %D%/test_rng %D%/test_scene %D%/test_shapes %D%/test_star %D%/test_star_bound %D%/test_star_lines \
-  %D%/test_star_methods %D%/test_star_search %D%/test_star_threads
+  %D%/test_star_methods %D%/test_star_search %D%/test_star_threads \
+  %D%/test_variation
 LDADD = %D%/liboracle.la lib/libcore.la $(CHECK_LIBS)
 
 
