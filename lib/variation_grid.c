@@ -303,9 +303,12 @@ static koksma_status take_layer(koksma_variation_grid *g, const double *layer,
     }
     for (size_t i = 0; !finite; i++)
         if (!isfinite(layer[i])) return fail_at(g, layer[i], i, err);
+    /* What one level passes over, the coarser ones do too, but for the last. */
     for (size_t i = 0; i < g->levels; i++)
         if (g->layers % g->level[i].stride == 0 || g->layers + 1 == g->nodes[0])
             take(g, &g->level[i], g->work, layer, top);
+        else
+            break;
     g->layers++;
     return KOKSMA_OK;
 }

@@ -12,7 +12,7 @@ AM_TESTS_ENVIRONMENT = \
   PATH='$(abs_top_builddir)/bin':$$PATH; export PATH;
 
 structure_scripts = \
-  %D%/cli.sh %D%/cli_star.sh %D%/floors.sh %D%/headers.sh %D%/man.sh %D%/names.sh \
+  %D%/cli.sh %D%/cli_star.sh %D%/cli_variation.sh %D%/floors.sh %D%/headers.sh %D%/man.sh %D%/names.sh \
   %D%/symbols.sh
 TESTS      += $(structure_scripts) %D%/replay.sh
 EXTRA_DIST += $(structure_scripts) %D%/cli_rows.sh %D%/replay.sh %D%/corpus
@@ -120,7 +120,7 @@ clean-fuzz:
 
 benches = \
   %D%/bench_gen %D%/bench_io %D%/bench_star %D%/bench_star_trade %D%/bench_l2 \
-  %D%/bench_fit %D%/bench_integrand
+  %D%/bench_fit %D%/bench_integrand %D%/bench_variation
 EXTRA_PROGRAMS += $(benches)
 CLEANFILES     += $(benches)
 %C%_bench_gen_SOURCES  = %D%/bench_gen.c %D%/bench.h
@@ -137,6 +137,8 @@ CLEANFILES     += $(benches)
 %C%_bench_fit_LDADD    = lib/libcore.la
 %C%_bench_integrand_SOURCES = %D%/bench_integrand.c %D%/bench.h
 %C%_bench_integrand_LDADD   = lib/libcore.la
+%C%_bench_variation_SOURCES = %D%/bench_variation.c %D%/bench.h
+%C%_bench_variation_LDADD   = lib/libcore.la
 
 .PHONY: bench
 bench: $(benches)

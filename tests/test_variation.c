@@ -295,9 +295,8 @@ START_TEST(closed_forms)
                  {"corner-peak", 3, {2.0, 0.0}, 1e-12},
                  {"box", 3, {0.7, 0.0}, 0.0},
                  {"gaussian", 2, {5.0, 0.3}, 1e-4},
-                 {"gaussian", 4, {5.0, 0.3}, 0.01},
                  {"product-peak", 2, {5.0, 0.3}, 1e-4},
-                 {"continuous", 2, {2.0, 0.3}, 1e-3},
+                 {"continuous", 2, {2.0, 0.3}, 2e-3},
                  {"continuous", 2, {2.0, 0.25}, 1e-12},
                  {"discontinuous", 2, {2.0, 0.5}, 0.01}};
 
@@ -306,13 +305,26 @@ START_TEST(closed_forms)
         koksma_integrand f =
             fixture_make(&k, cases[i].name, cases[i].dim, cases[i].param);
         koksma_variation_result r =
-            of(&f, NULL, KOKSMA_VARIATION_AUTO, cases[i].dim == 4 ? 64 : 0);
+            of(&f, NULL, KOKSMA_VARIATION_AUTO, cases[i].dim == 2 ? 1024 : 64);
         double off = k.variation - finest(&r);
 
         ck_assert_msg(fabs(off) <= cases[i].within * k.variation && off >= -1e-10,
                       "%s dim %zu: %.17g, not %.17g", cases[i].name, cases[i].dim,
                       finest(&r), k.variation);
     }
+}
+END_TEST
+
+/* Genz's in four dimensions, where a grid is still within 1 %. */
+START_TEST(gaussian_in_four_dimensions)
+{
+    koksma_facts k;
+    koksma_integrand f = fixture_make(&k, "gaussian", 4, NULL);
+    koksma_variation_result r = of(&f, NULL, KOKSMA_VARIATION_AUTO, 0);
+
+    ck_assert_uint_eq(r.level[r.levels - 1].cells, 64);
+    ck_assert_double_eq_tol(finest(&r), k.variation, 0.01 * k.variation);
+    ck_assert_double_lt(finest(&r), k.variation);
 }
 END_TEST
 
@@ -389,8 +401,10 @@ END_TEST
 START_TEST(many_axes)
 {
     koksma_integrand f = fixture_make(NULL, "product", 6, NULL);
-    koksma_variation_result r = of(&f, NULL, KOKSMA_VARIATION_AUTO, 0);
+    koksma_variation_opts o = {.samples = 1e5, .seed = 1};
+    koksma_variation_result r;
 
+    ck_assert_int_eq(koksma_variation(&r, NULL, &f, &o, NULL), KOKSMA_OK);
     ck_assert(r.level[0].value.level == 1.0);
     ck_assert(r.level[r.levels - 1].value.level == 0.95);
     ck_assert_uint_eq(r.level[r.levels - 1].cells, 64);
@@ -652,7 +666,7 @@ END_TEST
 int main(void)
 {
     Suite *suite = suite_create("variation");
-    TCase *c = tcase_create("variation");
+    TCase *c = tcase_create("variation"), *big = tcase_create("big");
 
     tcase_set_timeout(c, 120.0);
     tcase_add_test(c, tables_are_as_defined);
@@ -672,5 +686,9 @@ int main(void)
     tcase_add_test(c, points_that_are_no_grid);
     tcase_add_test(c, integrands_that_are_none);
     suite_add_tcase(suite, c);
+    tcase_set_tags(big, "big");
+    tcase_set_timeout(big, 120.0);
+    tcase_add_test(big, gaussian_in_four_dimensions);
+    suite_add_tcase(suite, big);
     return oracle_run(suite);
 }
