@@ -53,14 +53,13 @@ double ki_variation_cell(const koksma_integrand *f, unsigned u, const size_t *lo
     size_t axis[KOKSMA_VARIATION_DIM_MOST], order = 0;
     double sum = 0.0, top = 0.0;
     unsigned upper = 0;
-    bool minus;
+    bool minus = false;
 
     for (size_t j = 0; j < f->dim; j++)
         if (u >> j & 1) {
             axis[order++] = j;
             x[j] = (double)low[j] / (double)k;
         }
-    minus = order % 2 == 1;
     for (unsigned corner = 0; corner < 1u << order; corner++, minus = !minus) {
         double v;
 
@@ -77,7 +76,8 @@ double ki_variation_cell(const koksma_integrand *f, unsigned u, const size_t *lo
         top = fmax(top, fabs(v));
     }
     *work += (double)(1u << order);
-    return fabs(sum) < ki_variation_floor(top, order) ? 0.0 : sum;
+    sum = fabs(sum);
+    return sum < ki_variation_floor(top, order) ? 0.0 : sum;
 }
 
 koksma_status ki_variation_bad_value(const koksma_integrand *f, const double *x,

@@ -16,9 +16,9 @@ static inline double ki_variation_floor(double top, size_t order)
     return order < 2 ? 0.0 : ldexp(top, (int)order - 52);
 }
 
-/* Delta of f at the cell of the k-grid whose lower corner is at `low`, for the axes
- * in u; x holds the others already, and has room for dim numbers.  Where a value is
- * not finite, that value, with x its place.  *work counts the values. */
+/* |Delta| of f at the cell of the k-grid whose lower corner is at `low`, for the
+ * axes in u; x holds the others already, and has room for dim numbers.  Where a
+ * value is not finite, that value, with x its place.  *work counts the values. */
 double ki_variation_cell(const koksma_integrand *f, unsigned u, const size_t *low,
                          size_t k, double *x, double *work);
 

@@ -70,7 +70,7 @@ static koksma_status draw(moments *m, sampler *s, size_t order, double count,
             s->x[j] = 1.0;
             low[j] = u >> j & 1 ? koksma_rng_below(&s->rng, s->k) : 0;
         }
-        d = fabs(ki_variation_cell(s->f, u, low, s->k, s->x, &s->work));
+        d = ki_variation_cell(s->f, u, low, s->k, s->x, &s->work);
         if (!isfinite(d)) return ki_variation_bad_value(s->f, s->x, err);
         add(m, d);
         if (s->faces != NULL) add(&s->faces[u], d);

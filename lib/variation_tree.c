@@ -108,7 +108,7 @@ static koksma_status descend(tree *t, bool measure, koksma_error *err)
             if (!measure) continue;
             d = ki_variation_cell(t->f, t->u, b->low, t->k, t->x, &t->work);
             if (!isfinite(d)) return ki_variation_bad_value(t->f, t->x, err);
-            ki_sum_add(&t->sum, fabs(d));
+            ki_sum_add(&t->sum, d);
         }
     }
     return KOKSMA_OK;

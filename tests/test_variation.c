@@ -282,6 +282,35 @@ START_TEST(boundary_cells_find_the_faces)
 }
 END_TEST
 
+/* Steps at a node, which is on the upper side of one and on the lower of the other:
+ * no range of an open box says so. */
+static double step_up(const koksma_integrand *f, const double *x)
+{
+    return f->param[0] > 0.0 ? x[0] >= 0.5 : x[0] > 0.5;
+}
+
+static koksma_range step_range(const koksma_integrand *f, const double *lower,
+                               const double *upper)
+{
+    bool all = lower[0] >= 0.5, some = upper[0] > 0.5;
+
+    (void)f;
+    return (koksma_range){{all ? 1.0 : 0.0, some ? 1.0 : 0.0}, some && !all};
+}
+
+START_TEST(steps_at_a_node)
+{
+    for (int closed = 0; closed < 2; closed++) {
+        koksma_integrand f = {
+            .dim = 1, .value = step_up, .range = step_range, .param = {closed}};
+        koksma_variation_result r = of(&f, NULL, KOKSMA_VARIATION_BOUNDARY, 32);
+
+        for (size_t i = 0; i < r.levels; i++)
+            ck_assert_double_eq(r.level[i].value.value, 1.0);
+    }
+}
+END_TEST
+
 /* Closed forms where the grid reaches them: exactly, and from below. */
 START_TEST(closed_forms)
 {
@@ -380,6 +409,35 @@ START_TEST(rare_cells_have_no_interval)
         ck_assert(isnan(v.lower) && isnan(v.upper) && v.level == 0.0);
         if (i == 1) ck_assert_double_eq_tol(v.value, 4.0, 1e-10);
     }
+}
+END_TEST
+
+/* Some were met, but not enough to say how many there are. */
+static double sum_and_corner(const koksma_integrand *f, const double *x)
+{
+    (void)f;
+    return x[0] + x[1] + (x[0] <= 0.7 && x[1] <= 0.7 ? 8.0 : 0.0);
+}
+
+START_TEST(few_cells_have_no_interval)
+{
+    koksma_integrand f = {.dim = 2, .value = sum_and_corner};
+    int none = 0, met = 0;
+
+    for (uint64_t seed = 0; seed < 20; seed++) {
+        koksma_variation_opts o = {KOKSMA_VARIATION_RANDOM, 32, 20000.0, seed};
+        koksma_variation_result r;
+        koksma_estimate v;
+
+        ck_assert_int_eq(koksma_variation(&r, NULL, &f, &o, NULL), KOKSMA_OK);
+        v = r.level[r.levels - 1].value;
+        none += isnan(v.lower);
+        met += v.value > 2.5;
+        ck_assert_double_ge(r.work, 0.9 * 5.0 * 20000.0);
+        ck_assert_double_le(r.work, 5.0 * 20000.0 + 100.0);
+    }
+    ck_assert_int_eq(none, 20);
+    ck_assert_int_ge(met, 10);
 }
 END_TEST
 
@@ -528,6 +586,12 @@ START_TEST(rounding_counts_as_zero)
         measure(&t, faces, &rng);
         ck_assert_double_eq(faces[3].value, above ? 0x1p-49 : 0.0);
     }
+    /* What is large may be in either of two layers. */
+    t = (table){.dim = 2, .nodes = {3, 6}, .n = 18};
+    for (size_t i = 0; i < t.n; i++)
+        t.v[i] = (i / 6 == 1 ? 1000.1 : 0.0) + 0.7 / (1.0 + (double)(i % 6));
+    measure(&t, faces, &rng);
+    ck_assert_double_eq(faces[3].value, 0.0);
     /* Along one axis a difference is what it is. */
     t = (table){
         .dim = 1, .nodes = {4}, .n = 4, .v = {1.0, 1.0 + 0x1p-52, 1.0, 1.0}};
@@ -678,6 +742,8 @@ int main(void)
     tcase_add_test(c, intervals_of_random_cells);
     tcase_add_test(c, rare_cells_have_no_interval);
     tcase_add_test(c, faces_of_random_cells);
+    tcase_add_test(c, few_cells_have_no_interval);
+    tcase_add_test(c, steps_at_a_node);
     tcase_add_test(c, many_axes);
     tcase_add_test(c, trends);
     tcase_add_test(c, ramps_and_kinks);
