@@ -51,11 +51,11 @@ size_t cli_prefixes(uint64_t **n, const char *option, const char *text,
         colon = strchr(item, ':');
         if (colon != NULL) *colon++ = '\0';
 
-        uint64_t first = cli_count(option, item, 1, (uint64_t)1 << 53);
+        uint64_t first = cli_count(option, item, 1, UINT64_MAX);
 
         if (colon != NULL)
-            append_range(&l, first,
-                         cli_count(option, colon, first, (uint64_t)1 << 53), steps);
+            append_range(&l, first, cli_count(option, colon, first, UINT64_MAX),
+                         steps);
         else
             append(&l, first);
     }

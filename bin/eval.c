@@ -7,7 +7,7 @@
 #include "cli.h"
 #include "cli_integrand.h"
 
-enum { NPY = CLI_LONG, HEX, LIST, BOUNCES, ALBEDO, CAP };
+enum { NPY = CLI_LONG, HEX, LIST, BOUNCES, ALBEDO, CAP, PIECE };
 
 static const cli_option options[] = {
     {'a', "parameter", "NAME=V", "a parameter of the integrand; V: the first"},
@@ -15,6 +15,7 @@ static const cli_option options[] = {
     {BOUNCES, "bounces", "N", "steps of a walk in the scene, two coordinates each"},
     {ALBEDO, "albedo", "V", "as -a albedo=V: the share that a bounce keeps"},
     {CAP, "cap", "V", "as -a cap=V: the light's share of the sphere"},
+    {PIECE, "piece", "PART", "of the integrand alone: smooth or jump"},
     {NPY, "npy", NULL, "write NumPy arrays"},
     {HEX, "hex", NULL, "write hexadecimal numbers"},
     {LIST, "list", NULL, "list what is known of the integrand, or of all"},
@@ -32,6 +33,7 @@ typedef struct job {
     const koksma_integrand_row *row;
     koksma_integrand f;
     koksma_facts facts;
+    const char *part; /* NULL: the whole integrand */
     koksma_form form;
     double *x, *rows, *values;
     size_t walks, hits; /* of the current set */
@@ -39,15 +41,32 @@ typedef struct job {
     size_t worst_hits, worst_walks;
 } job;
 
+/* The part of f that is called so; all of it if part is NULL. */
+static void take_part(koksma_integrand *f, koksma_facts *facts,
+                      const koksma_integrand_row *row, const char *part)
+{
+    if (part == NULL) return;
+    koksma_integrand_split(f, facts, row,
+                           part[0] == 's' ? KOKSMA_PART_SMOOTH : KOKSMA_PART_JUMP);
+}
+
+static const char *read_part(const char *text)
+{
+    if (strcmp(text, "smooth") != 0 && strcmp(text, "jump") != 0)
+        cli_usage("--piece takes smooth or jump, not \"%s\"", text);
+    return text;
+}
+
 /* ---- --list ------------------------------------------------------------------ */
 
 static void list_row(const koksma_integrand_row *row, size_t dim,
-                     const double *param)
+                     const double *param, const char *part)
 {
     koksma_integrand f;
     koksma_facts k;
 
     if (koksma_integrand_make(&f, &k, row, dim, param, NULL)) return;
+    take_part(&f, &k, row, part);
 
     const double known[] = {k.integral, k.error,  k.variance, k.jump,
                             k.jump_rms, k.area,   k.extent,   k.axes,
@@ -66,23 +85,30 @@ static void list_row(const koksma_integrand_row *row, size_t dim,
     printf("\t%s\n", row->summary);
 }
 
-_Noreturn static void list_integrands(const cli_integrand *r)
+_Noreturn static void list_integrands(const cli_integrand *r, const char *part)
 {
     if (!cli_quiet())
         puts("# integrand\tdim\tparameters\tintegral\terror\tvariance\tjump\t"
              "jump_rms\tarea\textent\taxes\tbox_dim\tpieces\tvariation\tsummary");
     if (r->row != NULL) {
-        list_row(r->row, r->dim, r->param);
+        list_row(r->row, r->dim, r->param, part);
         cli_finish(CLI_DONE);
     }
     for (size_t i = 0; koksma_integrands[i] != NULL; i++)
-        list_row(koksma_integrands[i], r->dim, NULL);
+        list_row(koksma_integrands[i], r->dim, NULL, part);
     for (size_t i = 0; koksma_scenes[i] != NULL; i++)
-        list_row(koksma_scenes[i], r->dim, NULL);
+        list_row(koksma_scenes[i], r->dim, NULL, part);
     cli_finish(CLI_DONE);
 }
 
 /* ---- Values ------------------------------------------------------------------ */
+
+/* Whether the values are those of walks in the scene. */
+static bool has_walks(const job *j)
+{
+    return koksma_scene_find(j->row->name) != NULL &&
+           (j->part == NULL || j->part[0] == 'j');
+}
 
 static void print_key(const char *key, double v)
 {
@@ -94,10 +120,11 @@ static void print_key(const char *key, double v)
 /* What is known of the values: the tools further down need not be told. */
 static void print_comment(const job *j, const char *about)
 {
-    bool scene = koksma_scene_find(j->row->name) != NULL;
+    bool scene = has_walks(j);
 
     if (cli_quiet()) return;
     printf("# koksma:%s integrand=%s dim=%zu", about, j->row->name, j->f.dim);
+    if (j->part != NULL) printf(" piece=%s", j->part);
     if (scene) printf(" bounces=%zu", koksma_scene_bounces(&j->f));
     for (size_t i = 0; i < koksma_integrand_params(j->row); i++)
         print_key(j->row->params[i].name, j->f.param[i]);
@@ -174,7 +201,7 @@ static void count_hits(job *j)
 
 static void note_poor_sets(const job *j)
 {
-    if (j->poor == 0 || koksma_scene_find(j->row->name) == NULL) return;
+    if (j->poor == 0 || !has_walks(j)) return;
     if (j->sets == 1)
         cli_note("under-resolved: %zu of %zu walks hit", j->worst_hits,
                  j->worst_walks);
@@ -199,6 +226,7 @@ static void begin(job *j, const cli_integrand *r, const cli_input *input,
                  input->label, columns, r->row->name, dim);
     if (koksma_integrand_make(&j->f, &j->facts, r->row, dim, r->param, &err))
         cli_fail("set %s has %s", input->label, err.text);
+    take_part(&j->f, &j->facts, r->row, j->part);
     j->row = r->row;
     j->x = malloc(BLOCK * dim * sizeof *j->x);
     j->rows = malloc(BLOCK * (dim + 1) * sizeof *j->rows);
@@ -207,9 +235,10 @@ static void begin(job *j, const cli_integrand *r, const cli_input *input,
         cli_fail("not enough memory");
 }
 
-static void eval_inputs(const cli_integrand *r, cli_input *input, koksma_form form)
+static void eval_inputs(const cli_integrand *r, const char *part, cli_input *input,
+                        koksma_form form)
 {
-    job j = {.form = form};
+    job j = {.form = form, .part = part};
     size_t columns;
 
     while (cli_next_set(input, &columns)) {
@@ -236,6 +265,7 @@ int main(int argc, char *argv[])
 {
     koksma_form form = KOKSMA_DECIMAL;
     cli_integrand r = {0};
+    const char *part = NULL;
     bool list = false;
     koksma_integrand f;
     koksma_error err;
@@ -248,6 +278,7 @@ int main(int argc, char *argv[])
         case BOUNCES: r.bounces = cli_count("--bounces", optarg, 1, 1000); break;
         case ALBEDO: cli_integrand_set(&r, "--albedo", "albedo"); break;
         case CAP: cli_integrand_set(&r, "--cap", "cap"); break;
+        case PIECE: part = read_part(optarg); break;
         case NPY: form = KOKSMA_NPY; break;
         case HEX: form = KOKSMA_HEX; break;
         case LIST: list = true; break;
@@ -259,10 +290,10 @@ int main(int argc, char *argv[])
     } else if (!list || r.count > 0) {
         cli_usage("name an integrand; --list lists them");
     }
-    if (list) list_integrands(&r);
+    if (list) list_integrands(&r, part);
 
     cli_input input = cli_inputs(argc, argv, KOKSMA_POINTS);
 
-    eval_inputs(&r, &input, form);
+    eval_inputs(&r, part, &input, form);
     cli_finish(CLI_DONE);
 }

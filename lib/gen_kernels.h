@@ -2,10 +2,9 @@
 #define KI_GEN_KERNELS_H
 
 #include "gen.h"
+#include "num_wide.h"
 
 /* Private: what a family brings, and the arithmetic they share. */
-
-__extension__ typedef unsigned __int128 ki_u128;
 
 struct koksma_gen {
     const koksma_gen_family *family;

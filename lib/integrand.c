@@ -157,3 +157,11 @@ size_t ki_piece_by_value(const koksma_integrand *f, const double *x)
 {
     return f->value(f, x) != 0.0;
 }
+
+koksma_meeting ki_meets_nothing(const koksma_integrand *f,
+                                const koksma_cell_box *box)
+{
+    (void)f;
+    (void)box;
+    return KOKSMA_APART;
+}

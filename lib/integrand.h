@@ -3,6 +3,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #include "num.h"
 #include "points.h"
@@ -20,6 +21,20 @@ typedef struct koksma_range {
     bool cut;
 } koksma_range;
 
+/* A box of cells: in each coordinate k from lower[k]/cells[k] to
+ * upper[k]/cells[k], lower < upper <= cells.  The product of the cells is below
+ * 2^64. */
+typedef struct koksma_cell_box {
+    const uint64_t *lower, *upper, *cells;
+} koksma_cell_box;
+
+/* How a box lies to the discontinuity inside the cube, or rather to its closure. */
+typedef enum koksma_meeting {
+    KOKSMA_APART,   /* they have no point in common */
+    KOKSMA_TOUCHES, /* points of the box's faces alone */
+    KOKSMA_CUTS     /* points of its inside */
+} koksma_meeting;
+
 enum { KOKSMA_PARAMS_MOST = 6, KOKSMA_DERIVED_MOST = 8 };
 
 /* A function, its dimension, and what it computes with.  value alone is needed;
@@ -31,6 +46,8 @@ enum { KOKSMA_PARAMS_MOST = 6, KOKSMA_DERIVED_MOST = 8 };
  *           a jump between them have different ones
  *   range   what f does on the box with those corners, lower < upper in all
  *           coordinates
+ *   meets   how the discontinuity lies to a box of cells, whose corners need not be
+ *           doubles
  *
  *     static double disc(const koksma_integrand *f, const double *x)
  *     {
@@ -43,6 +60,8 @@ typedef struct koksma_integrand {
     size_t (*piece)(const struct koksma_integrand *f, const double *x);
     koksma_range (*range)(const struct koksma_integrand *f, const double *lower,
                           const double *upper);
+    koksma_meeting (*meets)(const struct koksma_integrand *f,
+                            const koksma_cell_box *box);
     const void *state;                   /* the caller's */
     double param[KOKSMA_PARAMS_MOST];    /* in the order of its row */
     double derived[KOKSMA_DERIVED_MOST]; /* what its row makes of them */
@@ -88,6 +107,9 @@ typedef struct koksma_param {
     double usual, least, most;
     koksma_param_kind kind;
 } koksma_param;
+
+/* Of f = smooth part + part with the jump. */
+typedef enum koksma_part { KOKSMA_PART_SMOOTH, KOKSMA_PART_JUMP } koksma_part;
 
 /* Sums, s = x_1 + ... + x_dim:
  *
@@ -135,10 +157,11 @@ typedef struct koksma_integrand_row {
     size_t dim;                              /* the usual one */
     size_t dim_least, dim_most, dim_step;    /* dim_least + i dim_step */
     koksma_param params[KOKSMA_PARAMS_MOST]; /* ended by a NULL name */
-    koksma_integrand functions;              /* value, piece, range */
+    koksma_integrand functions;              /* value, piece, range, meets */
     void (*prepare)(koksma_integrand *f);    /* fills derived; may be NULL */
     void (*facts)(koksma_facts *out, const koksma_integrand *f);
-} koksma_integrand_row;
+    void (*split)(koksma_integrand *f, koksma_facts *facts, koksma_part part);
+} koksma_integrand_row; /* split may be NULL */
 
 /* All rows, ended by NULL. */
 extern const koksma_integrand_row *const koksma_integrands[];
@@ -160,5 +183,16 @@ size_t koksma_integrand_params(const koksma_integrand_row *row);
 koksma_status koksma_integrand_make(koksma_integrand *f, koksma_facts *facts,
                                     const koksma_integrand_row *row, size_t dim,
                                     const double *param, koksma_error *err);
+
+/* Make f, which was made of that row, one of the two parts that it is the sum of.
+ *
+ * The smooth part of a sum is a multiple of s, and the rest steps from one constant
+ * to another.  What is constant on each piece has the smooth part 0, and so has
+ * discontinuous, which varies on the one side and is 0 on the other; what does not
+ * jump is its own smooth part.  Neither part depends on how many points there are.
+ *
+ * In/out:  f, facts  as koksma_integrand_make left them */
+void koksma_integrand_split(koksma_integrand *f, koksma_facts *facts,
+                            const koksma_integrand_row *row, koksma_part part);
 
 #endif

@@ -7,8 +7,8 @@
 
 enum { R };
 
-/* 3 dim + 3 terms are added exactly. */
-enum { DIM_MOST = (KI_SIGN_TERMS - 3) / 3 };
+/* 6 dim + 24 terms are added exactly. */
+enum { DIM_MOST = 20 };
 
 /* x^2 as two terms.  fma gives the rest without error unless it underflows. */
 static void square(double *term, double x)
@@ -69,6 +69,85 @@ static koksma_range range(const koksma_integrand *f, const double *lower,
                           meets && !within};
 }
 
+/* |2i - k| for i <= k: twice the distance from the middle, in units. */
+static uint64_t twice_off(uint64_t i, uint64_t k)
+{
+    return i > k - i ? i - (k - i) : k - i - i;
+}
+
+/* factor a b as two terms, the factor being 1, -1 or 2. */
+static size_t add_product(double *term, double factor, double a, double b)
+{
+    term[0] = factor * a * b;
+    term[1] = fma(factor * a, b, -term[0]);
+    return 2;
+}
+
+/* The sign of sum (v_k/cells_k)^2 - (2r)^2, exactly: of sum (v_k unit/cells_k)^2 -
+ * (2r)^2 unit^2.  Halves of 32 bits make all products of two exact; of r^2 and
+ * unit^2 there are two terms each, and six. */
+static int side_of_units(const koksma_integrand *f, const koksma_cell_box *box,
+                         const uint64_t *v)
+{
+    uint64_t unit;
+    double term[KI_SIGN_TERMS], part[6], r2[2], apart = 0.0, r = f->param[R];
+    double high, low, half = 0.5 / (double)box->cells[0];
+    size_t count = 0;
+
+    for (size_t k = 0; k < f->dim; k++) {
+        double x;
+
+        if (k > 0 && box->cells[k] != box->cells[k - 1])
+            half = 0.5 / (double)box->cells[k];
+        x = (double)v[k] * half;
+        apart += x * x;
+    }
+    apart -= r * r;
+    if (fabs(apart) > 0x1p-44) return apart > 0.0 ? 1 : -1;
+    unit = ki_common_unit(box, f->dim);
+    for (size_t k = 0; k < f->dim; k++) {
+        uint64_t w = unit == box->cells[k] ? v[k] : v[k] * (unit / box->cells[k]);
+
+        high = (double)(w >> 32) * 0x1p32;
+        low = (double)(w & UINT32_MAX);
+        count += add_product(term + count, 1.0, high, high);
+        count += add_product(term + count, 2.0, high, low);
+        count += add_product(term + count, 1.0, low, low);
+    }
+    high = (double)(unit >> 32) * 0x1p32;
+    low = (double)(unit & UINT32_MAX);
+    square(r2, 2.0 * r);
+    add_product(part, 1.0, high, high);
+    add_product(part + 2, 2.0, high, low);
+    add_product(part + 4, 1.0, low, low);
+    for (int i = 0; i < 6; i++)
+        for (int j = 0; j < 2; j++)
+            count += add_product(term + count, -1.0, part[i], r2[j]);
+    return ki_sum_sign(term, count);
+}
+
+/* The distances of the inside from the middle of the cube, which are all those
+ * between the nearest and the farthest. */
+static koksma_meeting meets(const koksma_integrand *f, const koksma_cell_box *box)
+{
+    uint64_t near[DIM_MOST], far[DIM_MOST];
+    int nearest, farthest;
+
+    for (size_t k = 0; k < f->dim; k++) {
+        uint64_t cells = box->cells[k], lower = box->lower[k],
+                 upper = box->upper[k];
+        uint64_t a = twice_off(lower, cells), b = twice_off(upper, cells);
+
+        far[k] = a > b ? a : b;
+        near[k] = lower >= cells - lower ? a : upper <= cells - upper ? b : 0;
+    }
+    nearest = side_of_units(f, box, near);
+    if (nearest > 0) return KOKSMA_APART;
+    farthest = side_of_units(f, box, far);
+    if (farthest < 0) return KOKSMA_APART;
+    return nearest < 0 && farthest > 0 ? KOKSMA_CUTS : KOKSMA_TOUCHES;
+}
+
 /* Balls of radius 1: V_dim = 2 pi/dim V_(dim-2). */
 static double unit_ball(size_t dim)
 {
@@ -99,6 +178,9 @@ const koksma_integrand_row ki_row_ball = {
     .dim_most = DIM_MOST,
     .dim_step = 1,
     .params = {{"r", 0.4, 0x1p-20, 0.5, KOKSMA_CLOSED}},
-    .functions = {.value = value, .piece = ki_piece_by_value, .range = range},
+    .functions = {.value = value,
+                  .piece = ki_piece_by_value,
+                  .range = range,
+                  .meets = meets},
     .facts = facts,
 };

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "integrand_kernels.h"
+#include "num_wide.h"
 
 enum { C };
 
@@ -25,6 +26,32 @@ static koksma_range range(const koksma_integrand *f, const double *lower,
     }
     return (koksma_range){{within ? 1.0 : 0.0, meets ? 1.0 : 0.0},
                           meets && !within};
+}
+
+/* The box of cells has points in the corner box and out of it.  Both are so with
+ * room to spare where the inside has such points, and for its closure without. */
+koksma_meeting ki_meets_corner(double c, size_t axes, const koksma_cell_box *box)
+{
+    bool in = true, out = false, reaches_in = true, reaches_out = false;
+
+    if (c <= 0.0 || c >= 1.0) return KOKSMA_APART;
+    for (size_t k = 0; k < axes; k++) {
+        ki_multiple at = ki_times(c, box->cells[k]);
+        uint64_t below = (uint64_t)at.floor, lower = box->lower[k];
+
+        in = in && (lower < below || (lower == below && !at.whole));
+        out = out || box->upper[k] > below;
+        reaches_in = reaches_in && lower <= below;
+        reaches_out = reaches_out || box->upper[k] > below ||
+                      (box->upper[k] == below && at.whole);
+    }
+    if (in && out) return KOKSMA_CUTS;
+    return reaches_in && reaches_out ? KOKSMA_TOUCHES : KOKSMA_APART;
+}
+
+static koksma_meeting meets(const koksma_integrand *f, const koksma_cell_box *box)
+{
+    return ki_meets_corner(f->param[C], f->dim, box);
 }
 
 static void facts(koksma_facts *out, const koksma_integrand *f)
@@ -50,6 +77,9 @@ const koksma_integrand_row ki_row_box = {
     .dim_most = 50,
     .dim_step = 1,
     .params = {{"c", 0.7, 0.0, 1.0, KOKSMA_CLOSED}},
-    .functions = {.value = value, .piece = ki_piece_by_value, .range = range},
+    .functions = {.value = value,
+                  .piece = ki_piece_by_value,
+                  .range = range,
+                  .meets = meets},
     .facts = facts,
 };

@@ -3,8 +3,10 @@
 #include <float.h>
 #include <math.h>
 #include <stdint.h>
+#include <string.h>
 
 #include "integrand_kernels.h"
+#include "num_wide.h"
 #include "rng.h"
 
 enum { M, PATTERN };
@@ -73,6 +75,134 @@ static double value(const koksma_integrand *f, const double *x)
     return koksma_rng_unit(&rng) < share(f);
 }
 
+/* ---- Boxes ------------------------------------------------------------------- */
+
+enum { OUT = 1, IN = 2, BOTH = OUT | IN, SUBCELLS_MOST = 125 };
+
+/* Part of one cell: in units of 1/cells[k] of its sides, from lower[k] to upper[k].
+ * Of a closed part even the neighbourhood counts, inside the cell. */
+typedef struct part {
+    ki_u128 lower[3], upper[3];
+    bool closed;
+} part;
+
+/* The subcells that the part meets have digits from first[k] to last[k]. */
+static void subcells_met(unsigned *first, unsigned *last, size_t dim,
+                         const uint64_t *cells, const part *p)
+{
+    for (size_t k = 0; k < dim; k++) {
+        ki_u128 lower = 5 * p->lower[k], upper = 5 * p->upper[k], at = cells[k];
+
+        first[k] = last[k] = 0;
+        for (unsigned digit = 1; digit < 5; digit++, at += cells[k]) {
+            first[k] += lower > at || (lower == at && !p->closed);
+            last[k] += upper > at || (upper == at && p->closed);
+        }
+    }
+}
+
+/* The part of p that is in the subcell with these digits. */
+static part part_within(const part *p, size_t dim, const uint64_t *cells,
+                        const unsigned *digit)
+{
+    part inner = {.closed = p->closed};
+
+    for (size_t k = 0; k < dim; k++) {
+        ki_u128 from = (ki_u128)cells[k] * digit[k], to = from + cells[k];
+        ki_u128 lower = 5 * p->lower[k], upper = 5 * p->upper[k];
+
+        inner.lower[k] = lower > from ? lower - from : 0;
+        inner.upper[k] = upper < to ? upper - from : cells[k];
+    }
+    return inner;
+}
+
+static bool is_whole(const koksma_integrand *f, const uint64_t *cells,
+                     const part *p)
+{
+    for (size_t k = 0; k < f->dim; k++)
+        if (p->lower[k] > 0 || p->upper[k] < cells[k]) return false;
+    return true;
+}
+
+/* From digits to the next of those from first to last; false after the last. */
+static bool next_subcell(unsigned *digit, const unsigned *first,
+                         const unsigned *last, size_t dim)
+{
+    for (size_t k = 0; k < dim; k++) {
+        if (digit[k]++ < last[k]) return true;
+        digit[k] = first[k];
+    }
+    return false;
+}
+
+static size_t number_of(const unsigned *digit, size_t dim)
+{
+    size_t subcell = 0;
+
+    for (size_t k = 0; k < dim; k++)
+        subcell = 5 * subcell + digit[k];
+    return subcell;
+}
+
+/* Which of in and out the part has some volume of; the cell at that level is
+ * divided and its subcells draw from rng.  A divided cell has both.  Subcells that
+ * are not divided come first, since they may answer at once. */
+static unsigned sides_of(const koksma_integrand *f, const uint64_t *cells,
+                         const part *p, koksma_rng rng, int level)
+{
+    size_t count = subcells(f->dim), divided = (size_t)f->param[M], dim = f->dim;
+    unsigned first[3], last[3], digit[3], sides = 0;
+    uint64_t drawn[SUBCELLS_MOST];
+    bool again[SUBCELLS_MOST];
+    koksma_rng own = rng;
+
+    if (is_whole(f, cells, p)) return BOTH;
+    if (level == LEVELS) return koksma_rng_unit(&rng) < share(f) ? IN : OUT;
+    for (size_t i = 0; i < count; i++)
+        drawn[i] = koksma_rng_next(&own);
+    subcells_met(first, last, dim, cells, p);
+    memcpy(digit, first, sizeof digit);
+    do {
+        size_t rank = 0, subcell = number_of(digit, dim);
+
+        for (size_t j = 0; j < count; j++)
+            rank += drawn[j] < drawn[subcell];
+        if (rank >= divided)
+            sides |= rank < divided + (count - divided) / 2 ? IN : OUT;
+        again[subcell] = rank < divided;
+    } while (sides != BOTH && next_subcell(digit, first, last, dim));
+    if (sides == BOTH) return BOTH;
+    do {
+        size_t subcell = number_of(digit, dim);
+        part inner;
+
+        if (!again[subcell]) continue;
+        inner = part_within(p, dim, cells, digit);
+        sides |=
+            sides_of(f, cells, &inner, (koksma_rng){drawn[subcell]}, level + 1);
+    } while (sides != BOTH && next_subcell(digit, first, last, dim));
+    return sides;
+}
+
+/* A box is connected: where it has both, it has what is between. */
+static koksma_meeting meets(const koksma_integrand *f, const koksma_cell_box *box)
+{
+    koksma_rng rng = koksma_rng_seed((uint64_t)f->param[PATTERN], 0);
+    part p = {.closed = false};
+
+    for (size_t k = 0; k < f->dim; k++) {
+        p.lower[k] = box->lower[k];
+        p.upper[k] = box->upper[k];
+    }
+    if (sides_of(f, box->cells, &p, rng, 0) == BOTH) return KOKSMA_CUTS;
+    p.closed = true;
+    return sides_of(f, box->cells, &p, rng, 0) == BOTH ? KOKSMA_TOUCHES
+                                                       : KOKSMA_APART;
+}
+
+/* ---- Rows -------------------------------------------------------------------- */
+
 /* Every divided cell has some of the set and some of its complement, so its inside
  * holds boundary in proportion to its face; above 5^(dim-1) of them, that adds up
  * to infinity, and an indicator of infinite perimeter is not of bounded
@@ -98,7 +228,7 @@ const koksma_integrand_row ki_row_fractal2 = {
     .dim_step = 1,
     .params = {{"m", 9.0, 1.0, 23.0, KOKSMA_WHOLE},
                {"pattern", 1.0, 0.0, 0x1p53, KOKSMA_WHOLE}},
-    .functions = {.value = value, .piece = ki_piece_by_value},
+    .functions = {.value = value, .piece = ki_piece_by_value, .meets = meets},
     .facts = facts,
 };
 
@@ -111,6 +241,6 @@ const koksma_integrand_row ki_row_fractal3 = {
     .dim_step = 1,
     .params = {{"m", 41.0, 1.0, 123.0, KOKSMA_WHOLE},
                {"pattern", 1.0, 0.0, 0x1p53, KOKSMA_WHOLE}},
-    .functions = {.value = value, .piece = ki_piece_by_value},
+    .functions = {.value = value, .piece = ki_piece_by_value, .meets = meets},
     .facts = facts,
 };

@@ -30,6 +30,26 @@ koksma_facts ki_facts_indicator(double measure, double error, double area,
 size_t ki_piece_only(const koksma_integrand *f, const double *x);
 size_t ki_piece_by_value(const koksma_integrand *f, const double *x);
 
+/* Where there is no discontinuity. */
+koksma_meeting ki_meets_nothing(const koksma_integrand *f,
+                                const koksma_cell_box *box);
+
+/* That of the indicator of [0,c]^axes x [0,1]^(dim-axes). */
+koksma_meeting ki_meets_corner(double c, size_t axes, const koksma_cell_box *box);
+
+/* The common unit of a box's coordinates, 1/unit, in cells a coordinate. */
+static inline uint64_t ki_common_unit(const koksma_cell_box *box, size_t dim)
+{
+    uint64_t unit = box->cells[0];
+    bool same = true;
+
+    for (size_t k = 1; k < dim; k++)
+        same = same && box->cells[k] == unit;
+    for (size_t k = 1; k < dim && !same; k++)
+        unit *= box->cells[k];
+    return unit;
+}
+
 /* integrand_spline.c: the sum s of dim uniform numbers, dim <= KI_SUM_DIM_MOST.
  * All are off by no more than 8 (dim + 2) DBL_EPSILON, relatively. */
 enum { KI_SUM_DIM_MOST = 31 };

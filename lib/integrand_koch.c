@@ -48,6 +48,57 @@ static double value(const koksma_integrand *f, const double *x)
     return is_under(along[far] + 0.5, out[far] - ROOT3 / 6.0);
 }
 
+/* Whether Koch's curve from p to q, on its right, has a point inside of the box.
+ * It stays in the triangle whose tip is that of its first bump, and passes through
+ * both ends; what 30 divisions leave is shorter than any double could tell. */
+static bool passes(const double *p, const double *q, const double *lower,
+                   const double *upper, int level)
+{
+    double way[2], end[5][2];
+
+    for (int k = 0; k < 2; k++)
+        way[k] = q[k] - p[k];
+    for (int k = 0; k < 2; k++) {
+        end[0][k] = p[k];
+        end[1][k] = p[k] + way[k] / 3.0;
+        end[2][k] = p[k] + 0.5 * way[k] + ROOT3 / 6.0 * (k == 0 ? way[1] : -way[0]);
+        end[3][k] = q[k] - way[k] / 3.0;
+        end[4][k] = q[k];
+        if (fmax(fmax(p[k], q[k]), end[2][k]) <= lower[k] ||
+            fmin(fmin(p[k], q[k]), end[2][k]) >= upper[k])
+            return false;
+    }
+    for (int i = 0; i < 5; i += 2)
+        if (end[i][0] > lower[0] && end[i][0] < upper[0] && end[i][1] > lower[1] &&
+            end[i][1] < upper[1])
+            return true;
+    for (int i = 0; i < 4 && level < 30; i++)
+        if (passes(end[i], end[i + 1], lower, upper, level + 1)) return true;
+    return false;
+}
+
+/* The corners of the triangle that all starts from, counterclockwise. */
+static koksma_meeting meets(const koksma_integrand *f, const koksma_cell_box *box)
+{
+    static const double p[] = {-0.5, 0.5, 0.0}, q[] = {-1.0, -1.0, 2.0};
+    double lower[2], upper[2], corner[3][2];
+
+    for (int k = 0; k < 2; k++) {
+        lower[k] = (double)box->lower[k] / (double)box->cells[k];
+        upper[k] = (double)box->upper[k] / (double)box->cells[k];
+    }
+    for (int i = 0; i < 3; i++) {
+        double u = f->param[SIDE] * p[i], v = f->param[SIDE] * ROOT3 / 6.0 * q[i];
+
+        corner[i][0] = 0.5 + (f->derived[COSINE] * u - f->derived[SINE] * v);
+        corner[i][1] = 0.5 + (f->derived[SINE] * u + f->derived[COSINE] * v);
+    }
+    for (int i = 0; i < 3; i++)
+        if (passes(corner[i], corner[(i + 1) % 3], lower, upper, 0))
+            return KOKSMA_CUTS;
+    return KOKSMA_APART;
+}
+
 static void prepare(koksma_integrand *f)
 {
     f->derived[COSINE] = cos(f->param[TURN]);
@@ -75,7 +126,7 @@ const koksma_integrand_row ki_row_koch = {
     .dim_step = 1,
     .params = {{"side", 0.7, 0x1p-20, 0.86, KOKSMA_CLOSED},
                {"turn", 0.3, 0.0, 6.3, KOKSMA_CLOSED}},
-    .functions = {.value = value, .piece = ki_piece_by_value},
+    .functions = {.value = value, .piece = ki_piece_by_value, .meets = meets},
     .prepare = prepare,
     .facts = facts,
 };

@@ -181,6 +181,12 @@ static double discontinuous(const koksma_integrand *f, const double *x)
     return exp(f->param[C] * sum);
 }
 
+static koksma_meeting discontinuous_meets(const koksma_integrand *f,
+                                          const koksma_cell_box *box)
+{
+    return ki_meets_corner(f->param[W], cut_axes(f), box);
+}
+
 /* exp(c x) on [0,w], and 0 beyond. */
 static factor growth(double c, double w)
 {
@@ -221,7 +227,10 @@ const koksma_integrand_row ki_row_product = {
     .dim_least = 1,
     .dim_most = DIM_MOST,
     .dim_step = 1,
-    .functions = {.value = product, .piece = ki_piece_only, .range = product_range},
+    .functions = {.value = product,
+                  .piece = ki_piece_only,
+                  .range = product_range,
+                  .meets = ki_meets_nothing},
     .facts = product_facts,
 };
 
@@ -234,7 +243,9 @@ const koksma_integrand_row ki_row_product_peak = {
     .dim_step = 1,
     .params = {{"c", 5.0, 0x1p-6, 0x1p6, KOKSMA_CLOSED},
                {"w", 0.3, 0.0, 1.0, KOKSMA_CLOSED}},
-    .functions = {.value = product_peak, .piece = ki_piece_only},
+    .functions = {.value = product_peak,
+                  .piece = ki_piece_only,
+                  .meets = ki_meets_nothing},
     .facts = product_peak_facts,
 };
 
@@ -247,7 +258,9 @@ const koksma_integrand_row ki_row_gaussian = {
     .dim_step = 1,
     .params = {{"c", 5.0, 0x1p-6, 0x1p6, KOKSMA_CLOSED},
                {"w", 0.3, 0.0, 1.0, KOKSMA_CLOSED}},
-    .functions = {.value = gaussian, .piece = ki_piece_only},
+    .functions = {.value = gaussian,
+                  .piece = ki_piece_only,
+                  .meets = ki_meets_nothing},
     .facts = gaussian_facts,
 };
 
@@ -260,7 +273,9 @@ const koksma_integrand_row ki_row_continuous = {
     .dim_step = 1,
     .params = {{"c", 2.0, 0x1p-6, 0x1p6, KOKSMA_CLOSED},
                {"w", 0.3, 0.0, 1.0, KOKSMA_CLOSED}},
-    .functions = {.value = continuous, .piece = ki_piece_only},
+    .functions = {.value = continuous,
+                  .piece = ki_piece_only,
+                  .meets = ki_meets_nothing},
     .facts = continuous_facts,
 };
 
@@ -273,6 +288,8 @@ const koksma_integrand_row ki_row_discontinuous = {
     .dim_step = 1,
     .params = {{"c", 2.0, 0x1p-6, 8.0, KOKSMA_CLOSED},
                {"w", 0.3, 0.0, 1.0, KOKSMA_CLOSED}},
-    .functions = {.value = discontinuous, .piece = ki_piece_by_value},
+    .functions = {.value = discontinuous,
+                  .piece = ki_piece_by_value,
+                  .meets = discontinuous_meets},
     .facts = discontinuous_facts,
 };

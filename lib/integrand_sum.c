@@ -5,6 +5,7 @@
 
 #include "integrand_kernels.h"
 #include "num_kernels.h"
+#include "num_wide.h"
 
 enum { SLOPE, JUMP, THRESHOLD, BASE };
 
@@ -61,6 +62,29 @@ static koksma_range range(const koksma_integrand *f, const double *lower,
 
     return (koksma_range){{value_on(f, low, least), value_on(f, high, most)},
                           jump != 0.0 && some_above && !all_above};
+}
+
+/* The sums of the corners, and the threshold, in the common unit. */
+static koksma_meeting meets(const koksma_integrand *f, const koksma_cell_box *box)
+{
+    uint64_t unit = ki_common_unit(box, f->dim);
+    ki_u128 low = 0, high = 0;
+    ki_multiple at;
+
+    if (f->derived[JUMP] == 0.0 || f->derived[THRESHOLD] <= 0.0 ||
+        f->derived[THRESHOLD] >= (double)f->dim)
+        return KOKSMA_APART;
+    for (size_t k = 0; k < f->dim; k++) {
+        uint64_t weight = unit == box->cells[k] ? 1 : unit / box->cells[k];
+
+        low += (ki_u128)box->lower[k] * weight;
+        high += (ki_u128)box->upper[k] * weight;
+    }
+    at = ki_times(f->derived[THRESHOLD], unit);
+    if (low > at.floor || high < at.floor || (high == at.floor && !at.whole))
+        return KOKSMA_APART;
+    if (at.whole && (low == at.floor || high == at.floor)) return KOKSMA_TOUCHES;
+    return KOKSMA_CUTS;
 }
 
 /* ---- Facts ------------------------------------------------------------------- */
@@ -132,6 +156,20 @@ static void facts_simplex(koksma_facts *out, const koksma_integrand *f)
     out->variance = out->integral * (1.0 - out->integral);
 }
 
+/* Without a slope all belongs to the jump, a constant too. */
+static void split(koksma_integrand *f, koksma_facts *out, koksma_part part)
+{
+    double *d = f->derived;
+    bool slopes = d[SLOPE] != 0.0;
+
+    if (part == KOKSMA_PART_SMOOTH) {
+        d[JUMP] = 0.0;
+        if (!slopes) d[BASE] = 0.0;
+    } else if (slopes)
+        d[SLOPE] = d[BASE] = 0.0;
+    facts(out, f);
+}
+
 /* ---- Rows -------------------------------------------------------------------- */
 
 static void set(koksma_integrand *f, double slope, double jump, double threshold)
@@ -173,7 +211,7 @@ static void prepare_sum(koksma_integrand *f) { set(f, 1.0, 0.0, (double)f->dim);
 
 #define FUNCTIONS                                                                  \
     {                                                                              \
-        .value = value, .piece = piece, .range = range                             \
+        .value = value, .piece = piece, .range = range, .meets = meets             \
     }
 
 const koksma_integrand_row ki_row_f2 = {
@@ -187,6 +225,7 @@ const koksma_integrand_row ki_row_f2 = {
     .functions = FUNCTIONS,
     .prepare = prepare_f2,
     .facts = facts_half,
+    .split = split,
 };
 
 const koksma_integrand_row ki_row_f3 = {
@@ -200,6 +239,7 @@ const koksma_integrand_row ki_row_f3 = {
     .functions = FUNCTIONS,
     .prepare = prepare_f3,
     .facts = facts_half,
+    .split = split,
 };
 
 const koksma_integrand_row ki_row_halfspace = {
@@ -213,6 +253,7 @@ const koksma_integrand_row ki_row_halfspace = {
     .functions = FUNCTIONS,
     .prepare = prepare_halfspace,
     .facts = facts_halfspace,
+    .split = split,
 };
 
 const koksma_integrand_row ki_row_simplex = {
@@ -225,6 +266,7 @@ const koksma_integrand_row ki_row_simplex = {
     .functions = FUNCTIONS,
     .prepare = prepare_simplex,
     .facts = facts_simplex,
+    .split = split,
 };
 
 const koksma_integrand_row ki_row_mixture = {
@@ -238,6 +280,7 @@ const koksma_integrand_row ki_row_mixture = {
     .functions = FUNCTIONS,
     .prepare = prepare_mixture,
     .facts = facts_one,
+    .split = split,
 };
 
 const koksma_integrand_row ki_row_sum = {
@@ -250,4 +293,5 @@ const koksma_integrand_row ki_row_sum = {
     .functions = FUNCTIONS,
     .prepare = prepare_sum,
     .facts = facts_sum,
+    .split = split,
 };

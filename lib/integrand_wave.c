@@ -91,7 +91,9 @@ const koksma_integrand_row ki_row_oscillatory = {
     .dim_step = 1,
     .params = {{"c", 3.0, 0x1p-6, 0x1p6, KOKSMA_CLOSED},
                {"w", 0.3, 0.0, 1.0, KOKSMA_CLOSED}},
-    .functions = {.value = oscillatory, .piece = ki_piece_only},
+    .functions = {.value = oscillatory,
+                  .piece = ki_piece_only,
+                  .meets = ki_meets_nothing},
     .facts = oscillatory_facts,
 };
 
@@ -103,6 +105,8 @@ const koksma_integrand_row ki_row_corner_peak = {
     .dim_most = DIM_MOST,
     .dim_step = 1,
     .params = {{"c", 2.0, 0x1p-6, 0x1p6, KOKSMA_CLOSED}},
-    .functions = {.value = corner_peak, .piece = ki_piece_only},
+    .functions = {.value = corner_peak,
+                  .piece = ki_piece_only,
+                  .meets = ki_meets_nothing},
     .facts = corner_peak_facts,
 };

@@ -2,6 +2,8 @@
 # so that they can reach ki_ names; libkoksma.la exports koksma_ names alone.
 noinst_LTLIBRARIES = %D%/libcore.la
 %C%_libcore_la_SOURCES = \
+  %D%/cells.c %D%/cells.h %D%/cells_kernels.h %D%/cells_grid.c %D%/cells_line.c \
+  %D%/cells_lines.c %D%/cells_occupancy.c %D%/cells_samples.c %D%/cells_slope.c \
   %D%/curve.c %D%/curve.h \
   %D%/error.c %D%/error.h \
   %D%/fit.c %D%/fit.h %D%/fit_kernels.h %D%/fit_grid.c %D%/fit_judge.c \
@@ -11,6 +13,7 @@ noinst_LTLIBRARIES = %D%/libcore.la
   %D%/integrand.c %D%/integrand.h %D%/integrand_kernels.h \
   %D%/integrand_ball.c %D%/integrand_box.c %D%/integrand_fractal.c \
   %D%/integrand_koch.c %D%/integrand_product.c %D%/integrand_spline.c \
+  %D%/integrand_split.c \
   %D%/integrand_sum.c %D%/integrand_wave.c \
   %D%/io.c %D%/io.h %D%/io_kernels.h %D%/io_about.c %D%/io_lines.c %D%/io_npy.c \
   %D%/io_number.c %D%/io_table.c %D%/io_text.c %D%/io_write.c \
@@ -18,6 +21,7 @@ noinst_LTLIBRARIES = %D%/libcore.la
   %D%/l2_divide_kernels.h %D%/l2_kinds.c %D%/l2_linear.c %D%/l2_merge.c \
   %D%/l2_number.c %D%/l2_pairs.c %D%/l2_sort.c %D%/l2_tile.c \
   %D%/num.c %D%/num.h %D%/num_kernels.h %D%/num_student.c %D%/num_twice.h \
+  %D%/num_wide.h \
   %D%/part.c %D%/part.h \
   %D%/points.c %D%/points.h \
   %D%/rng.c %D%/rng.h \
@@ -54,8 +58,7 @@ lib_LTLIBRARIES = %D%/libkoksma.la
 include_HEADERS = %D%/koksma.h
 koksmaincludedir = $(includedir)/koksma
 koksmainclude_HEADERS = \
-  %D%/curve.h %D%/fit.h %D%/gen.h %D%/integrand.h %D%/io.h %D%/l2.h %D%/num.h \
-  %D%/points.h %D%/rng.h %D%/scene.h %D%/star.h \
-  %D%/variation.h
+  %D%/cells.h %D%/curve.h %D%/fit.h %D%/gen.h %D%/integrand.h %D%/io.h %D%/l2.h %D%/num.h \
+  %D%/points.h %D%/rng.h %D%/scene.h %D%/star.h %D%/variation.h
 
 pkgconfig_DATA = %D%/koksma.pc

@@ -44,7 +44,7 @@ static inline double ki_sum_value(ki_sum s) { return s.sum + s.rest; }
 
 /* The sign, -1, 0 or 1, of the exact sum of n <= KI_SIGN_TERMS finite doubles
  * whose sums do not overflow [Shewchuk 1997, Grow-Expansion]. */
-#define KI_SIGN_TERMS 64
+#define KI_SIGN_TERMS 144
 int ki_sum_sign(const double *terms, size_t n);
 
 /* vol: the product of dim numbers in [0,1]. */
