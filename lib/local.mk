@@ -2,6 +2,7 @@
 # so that they can reach ki_ names; libkoksma.la exports koksma_ names alone.
 noinst_LTLIBRARIES = %D%/libcore.la
 %C%_libcore_la_SOURCES = \
+  %D%/bound.c %D%/bound.h \
   %D%/cells.c %D%/cells.h %D%/cells_kernels.h %D%/cells_grid.c %D%/cells_line.c \
   %D%/cells_lines.c %D%/cells_occupancy.c %D%/cells_samples.c %D%/cells_slope.c \
   %D%/curve.c %D%/curve.h \
@@ -58,7 +59,7 @@ lib_LTLIBRARIES = %D%/libkoksma.la
 include_HEADERS = %D%/koksma.h
 koksmaincludedir = $(includedir)/koksma
 koksmainclude_HEADERS = \
-  %D%/cells.h %D%/curve.h %D%/fit.h %D%/gen.h %D%/integrand.h %D%/io.h %D%/l2.h %D%/num.h \
+  %D%/bound.h %D%/cells.h %D%/curve.h %D%/fit.h %D%/gen.h %D%/integrand.h %D%/io.h %D%/l2.h %D%/num.h \
   %D%/points.h %D%/rng.h %D%/scene.h %D%/star.h %D%/variation.h
 
 pkgconfig_DATA = %D%/koksma.pc

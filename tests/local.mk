@@ -12,7 +12,7 @@ AM_TESTS_ENVIRONMENT = \
   PATH='$(abs_top_builddir)/bin':$$PATH; export PATH;
 
 structure_scripts = \
-  %D%/cli.sh %D%/cli_star.sh %D%/cli_variation.sh %D%/floors.sh %D%/headers.sh %D%/man.sh %D%/names.sh \
+  %D%/cli.sh %D%/cli_bound.sh %D%/cli_star.sh %D%/cli_variation.sh %D%/floors.sh %D%/headers.sh %D%/man.sh %D%/names.sh \
   %D%/symbols.sh
 TESTS      += $(structure_scripts) %D%/replay.sh
 EXTRA_DIST += $(structure_scripts) %D%/cli_rows.sh %D%/replay.sh %D%/corpus
@@ -35,7 +35,7 @@ unit_tests = \
   %D%/test_known %D%/test_l2 %D%/test_num %D%/test_part %D%/test_points \
   %D%/test_rng %D%/test_scene %D%/test_shapes %D%/test_star %D%/test_star_bound %D%/test_star_lines \
   %D%/test_star_methods %D%/test_star_search %D%/test_star_threads \
-  %D%/test_variation
+  %D%/test_variation %D%/test_bound
 LDADD = %D%/liboracle.la lib/libcore.la $(CHECK_LIBS)
 
 
