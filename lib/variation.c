@@ -254,7 +254,9 @@ static koksma_status measure(koksma_variation_result *r, koksma_estimate *faces,
     }
     if (finest == 0)
         finest = f->dim <= 4 || o->method == KOKSMA_VARIATION_GRID ? dense : 64;
-    if (method == KOKSMA_VARIATION_RANDOM)
+    if (method == KOKSMA_VARIATION_RANDOM ||
+        (o->method == KOKSMA_VARIATION_AUTO && f->dim > 4 &&
+         pow((double)dense + 1.0, (double)f->dim) > 0x1p23))
         return add_random(r, faces, f, 2, finest, o, err);
     if (o->method == KOKSMA_VARIATION_GRID || dense > finest) dense = finest;
     status = ki_variation_dense(r, dense == finest ? faces : NULL, f, dense, err);

@@ -90,8 +90,9 @@ typedef struct koksma_variation_opts {
 /* The variation of f on grids of 2, 4, ..., k cells an axis.
  *
  * AUTO takes BOUNDARY up to dim 4 where f's range is constant on most boxes, and
- * else GRID up to 2^24 cells (2^20 above dim 4); above dim 4, or where k asks for
- * more cells than that, RANDOM for the grids beyond.
+ * else GRID up to 2^24 cells (above dim 4 up to 2^20, or none where that has more
+ * than 2^23 nodes); above dim 4, or where k asks for more cells than that, RANDOM
+ * for the grids beyond.
  *
  * BOUNDARY halves boxes of cells until f's range on a box, half a cell wider, is
  * one number.  It assumes that f goes on as it is inside up to the cube's faces,

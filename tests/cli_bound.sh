@@ -32,6 +32,12 @@ t star-curve 0 "256 proved
 512 proved
 1024 proved" "" \
     'koksma-bound gaussian star -q | awk "/hlawka/ { print \$1, \$4 }"'
+t worst-of-sets 0 "8 0.5" "" \
+    'printf "# n dim lower upper\n8 2 .25 .25\n8 2 .5 .5\n8 2 .125 .125\n" >sets
+     koksma-bound -d 2 --vhk 1 sets -q | awk "/hlawka/ { print \$1, \$3 }"'
+t options-first 0 "0.25" "" \
+    'koksma-bound -d 3 cells --extent 4 --jump 1 --sigma 9 --area 1.5 --axes 1 --smooth-vhk 0 -q -n 2 |
+     awk "/jump/ { print \$3 }"'
 t product 0 "" "" \
     'koksma-bound product -d 2 star -q | awk "/hlawka/ { print \$1, \$3 / 3 }" >1
      awk "!/#/ { print \$1, \$4 / 1 }" star | diff - 1'
