@@ -5,6 +5,7 @@
 
 /* Where the halves of the line differ by more, it is no line. */
 static const double BEND_MOST = 0.1;
+enum { SCALES_FEW = 4 };
 
 /* What a row says of the discontinuity; NaN where it is not known. */
 typedef struct row {
@@ -51,6 +52,7 @@ uint64_t cells_print_grid(uint64_t n, const uint64_t *cells, size_t dim)
 static const char *fit_of(koksma_cell_slope s)
 {
     if (isnan(s.bend)) return "-";
+    if (s.scales < SCALES_FEW) return "few";
     return fabs(s.bend) <= BEND_MOST ? "line" : "bent";
 }
 

@@ -7,41 +7,46 @@
 #include "cells_kernels.h"
 #include "error.h"
 
-enum { BETWEEN_PROGRESS = 1 << 14 };
+enum { BETWEEN_PROGRESS = 1 << 14, FEW_CELLS = 8 };
 
-/* Boxes that meet the discontinuity, the last one first; how each does is known.
- * Halving a box leaves one of its halves here and goes on with the other, so that
- * no more lie here at a time than it takes halvings from all cells to one: 64 +
- * dim. */
+/* Boxes that meet the discontinuity, the last one first.  Halving a box leaves one
+ * of its halves here and goes on with the other, so that no more lie here at a time
+ * than it takes halvings from all cells to one: 64 + dim. */
 typedef struct tree {
     const koksma_integrand *f;
     const uint64_t *cells;
     void *memory;
-    uint64_t *box;  /* lower and upper, dim each, and the koksma_meeting, a box */
+    uint64_t *box;  /* lower and upper, dim each, a box */
+    uint64_t *cell; /* likewise, of one */
     double *side;   /* of a cell */
     double *corner; /* lower and upper, for range */
     size_t boxes;
 } tree;
 
-static koksma_meeting meet(const tree *t, const uint64_t *lower)
+/* The corners as doubles, for a range. */
+static koksma_meeting meet_range(const tree *t, const uint64_t *lower)
 {
     size_t dim = t->f->dim;
-    const uint64_t *upper = lower + dim;
 
-    if (t->f->meets != NULL)
-        return t->f->meets(t->f, &(koksma_cell_box){lower, upper, t->cells});
     for (size_t k = 0; k < dim; k++) {
         t->corner[k] = (double)lower[k] / (double)t->cells[k];
-        t->corner[dim + k] = (double)upper[k] / (double)t->cells[k];
+        t->corner[dim + k] = (double)lower[dim + k] / (double)t->cells[k];
     }
     return t->f->range(t->f, t->corner, t->corner + dim).cut ? KOKSMA_CUTS
                                                              : KOKSMA_APART;
 }
 
+static inline koksma_meeting meet(const tree *t, const uint64_t *lower)
+{
+    koksma_cell_box box = {lower, lower + t->f->dim, t->cells};
+
+    return t->f->meets != NULL ? t->f->meets(t->f, &box) : meet_range(t, lower);
+}
+
 static koksma_status tree_open(tree *t, const koksma_integrand *f,
                                const uint64_t *cells, koksma_error *err)
 {
-    size_t row = 2 * f->dim + 1, most = 64 + f->dim + 1;
+    size_t row = 2 * f->dim, most = 64 + f->dim + 1;
 
     *t = (tree){.f = f, .cells = cells};
     t->memory = ki_alloc(most + 3, row * sizeof(uint64_t));
@@ -49,18 +54,18 @@ static koksma_status tree_open(tree *t, const koksma_integrand *f,
     t->box = t->memory;
     t->corner = (double *)t->memory + most * row;
     t->side = t->corner + row;
+    t->cell = t->box + (most + 2) * row;
     for (size_t k = 0; k < f->dim; k++) {
         t->box[k] = 0;
         t->box[f->dim + k] = cells[k];
         t->side[k] = 1.0 / (double)cells[k];
     }
-    t->box[2 * f->dim] = meet(t, t->box);
-    t->boxes = t->box[2 * f->dim] != KOKSMA_APART;
+    t->boxes = meet(t, t->box) != KOKSMA_APART;
     return KOKSMA_OK;
 }
 
-/* The axis along which the box is longest, of those along which it has several
- * cells; dim if there is none. */
+/* The axis along which the box, of several cells, is longest, of those along which
+ * it has several. */
 static size_t longest(const tree *t, const uint64_t *lower)
 {
     size_t dim = t->f->dim, axis = dim;
@@ -77,22 +82,55 @@ static size_t longest(const tree *t, const uint64_t *lower)
     return axis;
 }
 
-/* The last box is counted or leaves those of its halves that meet the
- * discontinuity.  When one half is apart from it, then so is the face between them,
- * and the other half meets it as the whole did. */
+static uint64_t cells_in(const uint64_t *box, size_t dim)
+{
+    uint64_t product = 1;
+
+    for (size_t k = 0; k < dim; k++)
+        product *= box[dim + k] - box[k];
+    return product;
+}
+
+/* Count the last box cell by cell: no outcome is waited for, so that this is sooner
+ * done than halving a few cells. */
+static void count_each(tree *t, koksma_cell_count *c)
+{
+    size_t dim = t->f->dim, k;
+    const uint64_t *box = t->box + 2 * dim * (t->boxes - 1);
+    uint64_t *at = t->cell;
+
+    for (k = 0; k < dim; k++) {
+        at[k] = box[k];
+        at[dim + k] = box[k] + 1;
+    }
+    do {
+        koksma_meeting m = meet(t, at);
+
+        c->lower += m == KOKSMA_CUTS;
+        c->touched += m == KOKSMA_TOUCHES;
+        c->work += 1.0;
+        for (k = 0; k < dim && at[dim + k] == box[dim + k]; k++) {
+            at[k] = box[k];
+            at[dim + k] = box[k] + 1;
+        }
+        if (k < dim) {
+            at[k]++;
+            at[dim + k]++;
+        }
+    } while (k < dim);
+    t->boxes--;
+}
+
+/* The last box leaves those of its halves that meet the discontinuity.  When one is
+ * apart from it, then so is the face between them, and the other half meets it as
+ * the whole did. */
 static void halve(tree *t, koksma_cell_count *c)
 {
-    size_t dim = t->f->dim, row = 2 * dim + 1, axis;
+    size_t dim = t->f->dim, row = 2 * dim, axis;
     uint64_t *box = t->box + row * (t->boxes - 1), low, mid, high;
-    koksma_meeting whole = (koksma_meeting)box[2 * dim], one, other;
+    koksma_meeting one, other;
 
     axis = longest(t, box);
-    if (axis == dim) {
-        c->lower += whole == KOKSMA_CUTS;
-        c->touched += whole == KOKSMA_TOUCHES;
-        t->boxes--;
-        return;
-    }
     low = box[axis];
     high = box[dim + axis];
     mid = low + (high - low) / 2;
@@ -104,7 +142,6 @@ static void halve(tree *t, koksma_cell_count *c)
     if (one == KOKSMA_APART) return;
     other = meet(t, box);
     c->work += 1.0;
-    box[2 * dim] = other;
     if (other != KOKSMA_APART) {
         for (size_t k = 0; k < row; k++)
             box[row + k] = box[k];
@@ -113,7 +150,16 @@ static void halve(tree *t, koksma_cell_count *c)
     }
     box[axis] = low;
     box[dim + axis] = mid;
-    box[2 * dim] = one;
+}
+
+static void look(tree *t, koksma_cell_count *c)
+{
+    size_t dim = t->f->dim;
+
+    if (cells_in(t->box + 2 * dim * (t->boxes - 1), dim) <= FEW_CELLS)
+        count_each(t, c);
+    else
+        halve(t, c);
 }
 
 /* Cells in boxes that were not halved. */
@@ -122,14 +168,8 @@ static uint64_t left(const tree *t)
     size_t dim = t->f->dim;
     uint64_t cells = 0;
 
-    for (size_t i = 0; i < t->boxes; i++) {
-        const uint64_t *lower = t->box + (2 * dim + 1) * i;
-        uint64_t product = 1;
-
-        for (size_t k = 0; k < dim; k++)
-            product *= lower[dim + k] - lower[k];
-        cells += product;
-    }
+    for (size_t i = 0; i < t->boxes; i++)
+        cells += cells_in(t->box + 2 * dim * i, dim);
     return cells;
 }
 
@@ -154,7 +194,7 @@ koksma_status koksma_cells_count(koksma_cell_count *out, const koksma_integrand 
     if (status != KOKSMA_OK) return status;
     while (t.boxes > 0 && !stopped) {
         for (int i = 0; i < BETWEEN_PROGRESS && t.boxes > 0; i++)
-            halve(&t, &c);
+            look(&t, &c);
         stopped = progress != NULL && t.boxes > 0 &&
                   progress(opts->state, (double)c.lower,
                            (double)(c.lower + left(&t)), c.work) != 0;

@@ -97,9 +97,10 @@ static bool narrow(crossing *c, piece *p, double least)
 static double jumps_within(crossing *c, piece whole, bool across, double *sum)
 {
     double least = least_jump(c), count = 0.0;
-    piece stack[STACK] = {whole};
+    piece stack[STACK];
     size_t waiting = 1;
 
+    stack[0] = whole;
     while (waiting > 0) {
         piece outer = stack[--waiting], p = outer;
         double size;

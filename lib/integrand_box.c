@@ -29,7 +29,8 @@ static koksma_range range(const koksma_integrand *f, const double *lower,
 }
 
 /* The box of cells has points in the corner box and out of it.  Both are so with
- * room to spare where the inside has such points, and for its closure without. */
+ * room to spare where the inside has such points, and for its closure without.  No
+ * branch depends on where it lies. */
 koksma_meeting ki_meets_corner(double c, size_t axes, const koksma_cell_box *box)
 {
     bool in = true, out = false, reaches_in = true, reaches_out = false;
@@ -37,16 +38,17 @@ koksma_meeting ki_meets_corner(double c, size_t axes, const koksma_cell_box *box
     if (c <= 0.0 || c >= 1.0) return KOKSMA_APART;
     for (size_t k = 0; k < axes; k++) {
         ki_multiple at = ki_times(c, box->cells[k]);
-        uint64_t below = (uint64_t)at.floor, lower = box->lower[k];
+        uint64_t below = (uint64_t)at.floor, lower = box->lower[k],
+                 upper = box->upper[k];
 
-        in = in && (lower < below || (lower == below && !at.whole));
-        out = out || box->upper[k] > below;
-        reaches_in = reaches_in && lower <= below;
-        reaches_out = reaches_out || box->upper[k] > below ||
-                      (box->upper[k] == below && at.whole);
+        bool under = lower<below, over = upper> below;
+
+        in &= under | ((lower == below) & !at.whole);
+        out |= over;
+        reaches_in &= lower <= below;
+        reaches_out |= over | ((upper == below) & at.whole);
     }
-    if (in && out) return KOKSMA_CUTS;
-    return reaches_in && reaches_out ? KOKSMA_TOUCHES : KOKSMA_APART;
+    return (koksma_meeting)((reaches_in & reaches_out) + (in & out));
 }
 
 static koksma_meeting meets(const koksma_integrand *f, const koksma_cell_box *box)

@@ -37,15 +37,23 @@ koksma_meeting ki_meets_nothing(const koksma_integrand *f,
 /* That of the indicator of [0,c]^axes x [0,1]^(dim-axes). */
 koksma_meeting ki_meets_corner(double c, size_t axes, const koksma_cell_box *box);
 
+/* Whether there are as many cells along each axis. */
+static inline bool ki_cubes(const koksma_cell_box *box, size_t dim)
+{
+    bool same = true;
+
+    for (size_t k = 1; k < dim; k++)
+        same &= box->cells[k] == box->cells[0];
+    return same;
+}
+
 /* The common unit of a box's coordinates, 1/unit, in cells a coordinate. */
 static inline uint64_t ki_common_unit(const koksma_cell_box *box, size_t dim)
 {
     uint64_t unit = box->cells[0];
-    bool same = true;
+    bool cubes = ki_cubes(box, dim);
 
-    for (size_t k = 1; k < dim; k++)
-        same = same && box->cells[k] == unit;
-    for (size_t k = 1; k < dim && !same; k++)
+    for (size_t k = 1; k < dim && !cubes; k++)
         unit *= box->cells[k];
     return unit;
 }

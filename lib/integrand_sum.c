@@ -64,27 +64,41 @@ static koksma_range range(const koksma_integrand *f, const double *lower,
                           jump != 0.0 && some_above && !all_above};
 }
 
-/* The sums of the corners, and the threshold, in the common unit. */
+/* Sums of whole numbers, the threshold being the third.  No branch depends on
+ * where the box lies. */
+static koksma_meeting compare(ki_u128 low, ki_u128 high, ki_multiple at)
+{
+    bool reaches = (low <= at.floor) & (high >= at.floor + !at.whole);
+    bool edge = at.whole & ((low == at.floor) | (high == at.floor));
+
+    return (koksma_meeting)(reaches + (reaches & !edge));
+}
+
+/* The sums of the corners in the common unit: in cubes that of one axis, and 64
+ * bits are enough. */
 static koksma_meeting meets(const koksma_integrand *f, const koksma_cell_box *box)
 {
-    uint64_t unit = ki_common_unit(box, f->dim);
-    ki_u128 low = 0, high = 0;
-    ki_multiple at;
+    uint64_t unit = ki_common_unit(box, f->dim), low = 0, high = 0;
+    ki_multiple at = ki_times(f->derived[THRESHOLD], unit);
+    ki_u128 lows = 0, highs = 0;
 
     if (f->derived[JUMP] == 0.0 || f->derived[THRESHOLD] <= 0.0 ||
         f->derived[THRESHOLD] >= (double)f->dim)
         return KOKSMA_APART;
-    for (size_t k = 0; k < f->dim; k++) {
-        uint64_t weight = unit == box->cells[k] ? 1 : unit / box->cells[k];
-
-        low += (ki_u128)box->lower[k] * weight;
-        high += (ki_u128)box->upper[k] * weight;
+    if (ki_cubes(box, f->dim) && unit < (uint64_t)1 << 58) {
+        for (size_t k = 0; k < f->dim; k++) {
+            low += box->lower[k];
+            high += box->upper[k];
+        }
+        return compare(low, high, at);
     }
-    at = ki_times(f->derived[THRESHOLD], unit);
-    if (low > at.floor || high < at.floor || (high == at.floor && !at.whole))
-        return KOKSMA_APART;
-    if (at.whole && (low == at.floor || high == at.floor)) return KOKSMA_TOUCHES;
-    return KOKSMA_CUTS;
+    for (size_t k = 0; k < f->dim; k++) {
+        uint64_t weight = unit / box->cells[k];
+
+        lows += (ki_u128)box->lower[k] * weight;
+        highs += (ki_u128)box->upper[k] * weight;
+    }
+    return compare(lows, highs, at);
 }
 
 /* ---- Facts ------------------------------------------------------------------- */

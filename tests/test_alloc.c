@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cells.h"
 #include "curve.h"
 #include "fit.h"
 #include "gen.h"
@@ -252,8 +253,54 @@ static koksma_status random_job(koksma_error *err)
     return variation_by(KOKSMA_VARIATION_RANDOM, err);
 }
 
+/* Nothing is asserted here: Check allocates. */
+static koksma_integrand ball(void)
+{
+    koksma_integrand f;
+
+    (void)koksma_integrand_make(&f, NULL, koksma_integrand_find("ball"), 2, NULL,
+                                NULL);
+    return f;
+}
+
+static koksma_status cells_job(koksma_error *err)
+{
+    koksma_integrand f = ball();
+    koksma_cell_slope s;
+
+    return koksma_cells_slope(&s, &f, 64, NULL, NULL, NULL, err);
+}
+
+static koksma_status cross_job(koksma_error *err)
+{
+    koksma_lines_opts o = KOKSMA_LINES_DEFAULTS;
+    koksma_integrand f = ball();
+    koksma_lines_result r;
+
+    o.lines = 2;
+    return koksma_lines(&r, NULL, &f, &o, err);
+}
+
+static koksma_status occupancy_job(koksma_error *err)
+{
+    const double x[] = {0.1, 0.9}, v[] = {0.0, 1.0};
+    const uint64_t cells[] = {2};
+    koksma_points p = {x, 2, 1};
+    koksma_samples_result r;
+    koksma_occupancy o;
+    koksma_status status = koksma_cells_occupancy(&o, p, cells, err);
+
+    if (status == KOKSMA_OK)
+        status =
+            koksma_cells_occupancy_halton(&o, 0, 2, 1, (uint32_t[]){2}, cells, err);
+    return status != KOKSMA_OK ? status : koksma_samples(&r, p, v, cells, 0.5, err);
+}
+
 START_TEST(every_allocation_may_fail)
 {
+    ck_assert_int_ge(exhaust(cells_job), 3);
+    ck_assert_int_ge(exhaust(cross_job), 2);
+    ck_assert_int_ge(exhaust(occupancy_job), 3);
     ck_assert_int_ge(exhaust(sweep_job), 2);
     ck_assert_int_ge(exhaust(tree_job), 20);
     ck_assert_int_ge(exhaust(lines_job), 8);
