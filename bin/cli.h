@@ -90,7 +90,12 @@ bool cli_next_file(cli_input *input);
  * names it; false after the last.  A file without a set is an error. */
 bool cli_next_set(cli_input *input, size_t *columns);
 
-/* The same, and read the set, whole; settles `several`. */
+/* After the rows of a set: settle `several`. */
+void cli_settle_several(cli_input *input);
+
+/* Go on to the next set as cli_next_set does, and read it, whole; settles
+ * `several`.
+ */
 bool cli_read_set(cli_input *input, koksma_set *set);
 
 /* measure(p, state) for the prefixes of these sizes, or for the whole set if count

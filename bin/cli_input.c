@@ -102,6 +102,17 @@ bool cli_next_set(cli_input *input, size_t *columns)
     return true;
 }
 
+void cli_settle_several(cli_input *input)
+{
+    koksma_error err;
+    size_t columns;
+
+    if (input->several) return;
+    if (koksma_reader_next(input->reader, &columns, &err) != KOKSMA_OK)
+        cli_fail_input(input, &err);
+    input->several = columns > 0;
+}
+
 bool cli_read_set(cli_input *input, koksma_set *set)
 {
     koksma_error err;
@@ -110,9 +121,6 @@ bool cli_read_set(cli_input *input, koksma_set *set)
     if (!cli_next_set(input, &columns)) return false;
     if (koksma_set_read(set, input->reader, &err) != KOKSMA_OK)
         cli_fail_input(input, &err);
-    if (input->several) return true;
-    if (koksma_reader_next(input->reader, &columns, &err) != KOKSMA_OK)
-        cli_fail_input(input, &err);
-    input->several = columns > 0;
+    cli_settle_several(input);
     return true;
 }

@@ -134,6 +134,8 @@ static void print_comment(const job *j, const char *about)
     if (j->facts.jump > 0.0) {
         print_key("area", j->facts.area);
         print_key("jump", j->facts.jump_rms);
+        print_key("extent", j->facts.extent);
+        if (j->facts.axes != (double)j->f.dim) print_key("axes", j->facts.axes);
     }
     fputs("\n# ", stdout);
     for (size_t k = 0; k < j->f.dim; k++)

@@ -17,6 +17,7 @@ enum {
     AREA,
     JUMP,
     SIGMA,
+    SATURATION,
     PATH,
     EXPLAIN
 };
@@ -36,6 +37,8 @@ static const cli_option options[] = {
     {AREA, "area", "S", "area of the discontinuity (default: as the input says)"},
     {JUMP, "jump", "J", "root mean square jump (default: as the input says)"},
     {SIGMA, "sigma", "V", "standard deviation (default: as the input says)"},
+    {SATURATION, "saturation", "N",
+     "where the jump's rate begins (default: as the input says)"},
     {PATH, "path", "K", "fit set K alone, without an interval"},
     {EXPLAIN, "explain", NULL, "write a paragraph for a person instead"},
     {0},
@@ -51,7 +54,8 @@ typedef struct fit_options {
     fit_report report; /* what the command line says of it */
     double claim, beta;
     uint64_t path;
-    bool interval; /* asked for */
+    bool interval;   /* asked for */
+    bool saturation; /* told */
     bool explain;
 } fit_options;
 
@@ -82,6 +86,16 @@ static void complete(fit_report *r, const char *about)
     if (isnan(r->jump)) r->jump = said(about, "jump");
     if (isnan(r->sigma)) r->sigma = said(about, "sigma");
     if (isnan(r->sigma)) r->sigma = sqrt(said(about, "variance"));
+}
+
+/* l^d, from the extent and the axes that the jump depends on, as comments have
+ * them; 0 where they do not. */
+static double said_saturation(const char *about)
+{
+    double extent = said(about, "extent"), axes = said(about, "axes");
+    double n = pow(extent, isnan(axes) ? said(about, "dim") : axes);
+
+    return n >= 0.0 ? n : 0.0;
 }
 
 /* Errors of replicates from 16 on: below that, chance zeros are many.  Halton's
@@ -143,6 +157,7 @@ static void fit_file(const cli_input *input, const fit_options *o, bool header)
     if (opts.from == 0.0) opts.from = default_from(&t);
     if (!koksma_about_number(t.about, "largest", &opts.scale) || opts.scale < 0.0)
         opts.scale = 0.0;
+    if (!o->saturation) opts.saturation = said_saturation(t.about);
     if (o->path > 0) keep_path(&t, o->path);
     r.path = (size_t)o->path;
     if (t.sets == 1 && o->interval)
@@ -189,6 +204,10 @@ int main(int argc, char *argv[])
         case AREA: r->area = cli_real("--area", optarg, 0.0, 1e300); break;
         case JUMP: r->jump = cli_real("--jump", optarg, 0.0, 1e300); break;
         case SIGMA: r->sigma = cli_real("--sigma", optarg, 1e-300, 1e300); break;
+        case SATURATION:
+            o.fit.saturation = cli_real("--saturation", optarg, 0.0, 1e300);
+            o.saturation = true;
+            break;
         case PATH: o.path = cli_count("--path", optarg, 1, SIZE_MAX); break;
         case EXPLAIN: o.explain = true; break;
         }

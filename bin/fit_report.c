@@ -40,7 +40,8 @@ static koksma_judgement judge(const fit_report *r)
 
 static const char *const verdicts[] = {"none", "equivalent", "different",
                                        "undecided"};
-static const char *const doubts[] = {"-", "path", "bent", "few", "wide", "rival"};
+static const char *const doubts[] = {"-",    "path",  "bent",     "few",
+                                     "wide", "rival", "saturated"};
 static const char *const shapes[] = {"none", "straight", "flattens", "steepens"};
 static const char *const models[] = {"auto", "power", "two-terms", "two-powers"};
 
@@ -185,7 +186,8 @@ static void explain_verdict(const fit_report *r)
         "the line bends, so that its slope is nobody's exponent",
         "two terms are parted reliably from 64 replicates and 16 octaves on",
         "the interval is too wide for the margin",
-        "it is within the margin, but not the only candidate left"};
+        "it is within the margin, but not the only candidate left",
+        "below the saturation points do as random ones"};
     koksma_judgement j = judge(r);
     const char *name = r->candidates[0].name;
     double claim = r->candidates[0].exponent;
@@ -204,6 +206,10 @@ static void explain_verdict(const fit_report *r)
         break;
     case KOKSMA_NO_VERDICT: break;
     }
+    if (j.doubt == KOKSMA_DOUBT_SATURATED)
+        printf(
+            "Saturated: nearly every cell meets the jump up to about N = %.2g.\n",
+            r->fit.saturation);
 }
 
 static void explain_shape(const fit_report *r)

@@ -4,9 +4,9 @@ noinst_LTLIBRARIES += %D%/libcli.la
   %D%/cli_watch.c %D%/cli_integrand.h %D%/cli_integrand.c
 tool_libs = %D%/libcli.la lib/libkoksma.la
 
-bin_PROGRAMS += \
+bin_PROGRAMS += %D%/koksma-bound \
   %D%/koksma-cells %D%/koksma-error %D%/koksma-eval %D%/koksma-fit %D%/koksma-l2 \
-  %D%/koksma-points %D%/koksma-star
+  %D%/koksma-points %D%/koksma-star %D%/koksma-variation
 %C%_koksma_cells_SOURCES  = %D%/cells.c %D%/cells_report.h %D%/cells_sets.c \
   %D%/cells_table.c
 %C%_koksma_error_SOURCES  = %D%/error.c %D%/error_report.h %D%/error_report.c
@@ -22,6 +22,12 @@ bin_PROGRAMS += \
 %C%_koksma_l2_LDADD = $(tool_libs)
 %C%_koksma_points_LDADD = $(tool_libs)
 %C%_koksma_star_LDADD = $(tool_libs)
+%C%_koksma_variation_SOURCES = %D%/variation.c %D%/variation_report.h \
+  %D%/variation_report.c %D%/variation_run.h %D%/variation_run.c
+%C%_koksma_variation_LDADD = $(tool_libs)
+%C%_koksma_bound_SOURCES = %D%/bound.c %D%/bound_input.h %D%/bound_input.c \
+  %D%/bound_report.h %D%/bound_report.c
+%C%_koksma_bound_LDADD = $(tool_libs)
 
 # koksma-plot is a shell script that carries its awk programs, one file to install.
 bin_SCRIPTS = %D%/koksma-plot

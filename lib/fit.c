@@ -113,7 +113,8 @@ static koksma_status fit_grid(koksma_fit_result *out, fit_work *w,
                            .used = g->rows,
                            .missing = g->missing,
                            .zero = g->zero,
-                           .below_floor = g->below_floor};
+                           .below_floor = g->below_floor,
+                           .saturation = o->saturation};
     koksma_fit_model model = o->model;
     koksma_status status = KOKSMA_OK;
 

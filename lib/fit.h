@@ -49,11 +49,14 @@ typedef struct koksma_fit_opts {
     double scale; /* of the values whose error this is, max |f|, for the floor; 0:
                    * the largest error in the window */
     koksma_fit_model model;
+    double saturation; /* the N up to which nearly every cell meets the jump, so
+                        * that the points do as random ones: l^D, l the extent; 0:
+                        * not known */
 } koksma_fit_opts;
 
 #define KOKSMA_FIT_DEFAULTS                                                        \
     {                                                                              \
-        0.0, 0.0, 0.0, 0.0, KOKSMA_FIT_AUTO                                        \
+        0.0, 0.0, 0.0, 0.0, KOKSMA_FIT_AUTO, 0.0                                   \
     }
 
 /* An exponent, a coefficient, and how well it is known. */
@@ -89,6 +92,7 @@ typedef struct koksma_fit_result {
     size_t used;                       /* N's in the fit */
     size_t missing, zero, below_floor; /* N's in [from, to] left out: koksma_fit */
     double from, to;                   /* the smallest and the largest used */
+    double saturation;                 /* as told */
 } koksma_fit_result;
 
 /* Fit the exponent.
@@ -133,9 +137,10 @@ koksma_fit_test koksma_fit_try(const koksma_fit_result *fit, double candidate,
 /* Is the exponent the one claimed?
  *   equivalent  it is near, and every rival is rejected
  *   different   otherwise, if the claim is rejected
- *   undecided   otherwise; and always when the curve bends and no model that fits
- *               has the data it takes: an exponent that is nobody's proves nothing
- */
+ *   undecided   otherwise; and always where the window ends below the saturation
+ *               and the claim is below -1/2, since that begins above it; and when
+ * the curve bends and no model that fits has the data it takes: an exponent that is
+ *               nobody's proves nothing */
 typedef enum koksma_verdict {
     KOKSMA_NO_VERDICT, /* one path: no interval, no verdict */
     KOKSMA_EQUIVALENT,
@@ -146,11 +151,12 @@ typedef enum koksma_verdict {
 /* Why there is no decision. */
 typedef enum koksma_doubt {
     KOKSMA_NO_DOUBT,
-    KOKSMA_DOUBT_PATH, /* one path */
-    KOKSMA_DOUBT_BENT, /* one power, and the line bends */
-    KOKSMA_DOUBT_FEW,  /* two terms, and not koksma_fit_can_part */
-    KOKSMA_DOUBT_WIDE, /* the interval is too wide for the margin */
-    KOKSMA_DOUBT_RIVAL /* near, but a rival is not rejected */
+    KOKSMA_DOUBT_PATH,     /* one path */
+    KOKSMA_DOUBT_BENT,     /* one power, and the line bends */
+    KOKSMA_DOUBT_FEW,      /* two terms, and not koksma_fit_can_part */
+    KOKSMA_DOUBT_WIDE,     /* the interval is too wide for the margin */
+    KOKSMA_DOUBT_RIVAL,    /* near, but a rival is not rejected */
+    KOKSMA_DOUBT_SATURATED /* all N are below the saturation */
 } koksma_doubt;
 
 typedef struct koksma_judgement {

@@ -37,6 +37,10 @@ koksma_judgement koksma_fit_judge(const koksma_fit_result *fit, double claim,
 
     if (isnan(test.z))
         return (koksma_judgement){KOKSMA_NO_VERDICT, KOKSMA_DOUBT_PATH};
+    /* There the points do as random ones, and no claim to be better can be judged.
+     */
+    if (fit->to < fit->saturation && claim < -0.5)
+        return undecided(KOKSMA_DOUBT_SATURATED);
     if (fit->model == KOKSMA_FIT_POWER && fit->shape != KOKSMA_STRAIGHT)
         return undecided(KOKSMA_DOUBT_BENT);
     if (fit->model != KOKSMA_FIT_POWER && !koksma_fit_can_part(fit))

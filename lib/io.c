@@ -15,7 +15,8 @@ koksma_status koksma_reader_open(koksma_reader **out, FILE *in,
 
     if (r == NULL) return ki_fail_memory(err, "a reader");
     r->lines.in = in;
-    r->content = content;
+    r->grid = content == KOKSMA_GRID;
+    r->content = r->grid ? KOKSMA_VALUES : content;
     *out = r;
     return KOKSMA_OK;
 }
@@ -92,6 +93,8 @@ koksma_status koksma_reader_next(koksma_reader *r, size_t *columns,
     if (status == KOKSMA_OK) *columns = r->columns;
     return status;
 }
+
+koksma_axes koksma_reader_axes(const koksma_reader *r) { return r->axes; }
 
 const char *koksma_reader_about(const koksma_reader *r) { return r->lines.about; }
 

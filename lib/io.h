@@ -21,7 +21,9 @@ typedef struct koksma_reader koksma_reader;
 
 typedef enum koksma_content {
     KOKSMA_POINTS, /* every column is a coordinate, in [0,1] */
-    KOKSMA_VALUES  /* the last column is a value, any finite number */
+    KOKSMA_VALUES, /* the last column is a value, any finite number */
+    KOKSMA_GRID    /* text: as KOKSMA_VALUES; .npy: an array of values with any
+                    * number of axes, and what they are is not looked at */
 } koksma_content;
 
 /* Start to read sets from `in`, which stays the caller's to close.
@@ -47,6 +49,20 @@ koksma_status koksma_reader_next(koksma_reader *r, size_t *columns,
  * Returns: as koksma_reader_next */
 koksma_status koksma_reader_rows(koksma_reader *r, double *rows, size_t room,
                                  size_t *got, koksma_error *err);
+
+enum { KOKSMA_AXES_MOST = 32 };
+
+/* How the values of an array follow each other.  Fortran's order is that of C with
+ * the axes in reverse, which is then said, and not undone. */
+typedef struct koksma_axes {
+    size_t count;                    /* 0: no array, or not read as KOKSMA_GRID */
+    size_t length[KOKSMA_AXES_MOST]; /* the fastest last */
+    bool reversed;
+} koksma_axes;
+
+/* The axes of the current set.  Its rows are along the fastest; of one axis a row
+ * has one value. */
+koksma_axes koksma_reader_axes(const koksma_reader *r);
 
 /* What `# koksma: key=value ...` comments have said so far, joined by blanks; ""
  * when they said nothing.  The later of two equal keys counts. */

@@ -58,6 +58,7 @@ koksma_status ki_fail_field(koksma_error *err, koksma_status status, size_t line
 struct koksma_reader {
     koksma_content content;
     bool started, npy;
+    bool grid;      /* .npy: all numbers are values; content is that of text */
     size_t columns; /* of the current set; 0 between sets */
 
     ki_lines lines;
@@ -67,6 +68,7 @@ struct koksma_reader {
 
     size_t row, rows; /* of the current array: handed out, and all */
     bool single, swapped;
+    koksma_axes axes;   /* where grid, else none */
     double *transposed; /* a Fortran-order array, in C order; else NULL */
 };
 

@@ -53,40 +53,85 @@ static koksma_status take_type(koksma_reader *r, const char *header,
     return KOKSMA_OK;
 }
 
-static koksma_status take_shape(koksma_reader *r, const char *header,
-                                koksma_error *err)
+/* The lengths in the header's tuple; returns how many there are, of which at most
+ * KOKSMA_AXES_MOST are kept, or -1 where it is no tuple. */
+static int read_shape(const char *header, uintmax_t length[KOKSMA_AXES_MOST])
 {
     const char *s = entry(header, "'shape'");
-    uintmax_t axis[2] = {0, 0};
-    size_t axes = 0, all;
+    int axes = 0;
 
-    if (s != NULL && *s == '(') {
-        s = ki_skip_blanks(s + 1);
-        while (*s >= '0' && *s <= '9') {
-            char *end;
-            uintmax_t length = strtoumax(s, &end, 10);
+    if (s == NULL || *s != '(') return -1;
+    for (s = ki_skip_blanks(s + 1); *s >= '0' && *s <= '9'; axes++) {
+        char *end;
+        uintmax_t v = strtoumax(s, &end, 10);
 
-            if (axes < 2) axis[axes] = length;
-            axes++;
-            s = ki_skip_blanks(end);
-            if (*s == ',') s = ki_skip_blanks(s + 1);
-        }
+        if (axes < KOKSMA_AXES_MOST) length[axes] = v;
+        s = ki_skip_blanks(end);
+        if (*s == ',') s = ki_skip_blanks(s + 1);
     }
-    if (s == NULL || *s != ')' || axes != 2)
-        return ki_fail(
-            err, KOKSMA_EFORMAT, 0,
-            "the .npy array has %zu axes, not the 2 of points and coordinates",
-            axes);
-    if (axis[0] == 0 || axis[1] == 0)
+    return *s == ')' ? axes : -1;
+}
+
+/* rows*columns numbers that memory could hold. */
+static koksma_status check_size(uintmax_t rows, uintmax_t columns,
+                                koksma_error *err)
+{
+    size_t all;
+
+    if (rows == 0 || columns == 0)
         return ki_fail(err, KOKSMA_EFORMAT, 0, "the .npy array is empty");
-    if (axis[0] > SIZE_MAX || axis[1] > SIZE_MAX ||
-        __builtin_mul_overflow((size_t)axis[0], (size_t)axis[1], &all) ||
+    if (rows > SIZE_MAX || columns > SIZE_MAX ||
+        __builtin_mul_overflow((size_t)rows, (size_t)columns, &all) ||
         all > PTRDIFF_MAX / sizeof(double))
         return ki_fail(err, KOKSMA_EFORMAT, 0,
                        "the .npy array of %ju by %ju is more than memory can hold",
-                       axis[0], axis[1]);
-    r->rows = (size_t)axis[0];
-    r->columns = (size_t)axis[1];
+                       rows, columns);
+    return KOKSMA_OK;
+}
+
+static koksma_status take_shape(koksma_reader *r, const char *header,
+                                koksma_error *err)
+{
+    uintmax_t length[KOKSMA_AXES_MOST];
+    int axes = read_shape(header, length);
+    koksma_status status;
+
+    if (axes != 2)
+        return ki_fail(
+            err, KOKSMA_EFORMAT, 0,
+            "the .npy array has %d axes, not the 2 of points and coordinates",
+            axes < 0 ? 0 : axes);
+    status = check_size(length[0], length[1], err);
+    if (status != KOKSMA_OK) return status;
+    r->rows = (size_t)length[0];
+    r->columns = (size_t)length[1];
+    return KOKSMA_OK;
+}
+
+/* An array of values: rows along the axis that is fastest in the file. */
+static koksma_status take_axes(koksma_reader *r, const char *header, bool fortran,
+                               koksma_error *err)
+{
+    uintmax_t length[KOKSMA_AXES_MOST], rows = 1;
+    int axes = read_shape(header, length);
+    koksma_axes a = {.count = (size_t)axes, .reversed = fortran};
+    koksma_status status = KOKSMA_OK;
+
+    if (axes < 1 || axes > KOKSMA_AXES_MOST)
+        return ki_fail(err, KOKSMA_EFORMAT, 0,
+                       "the .npy array has %d axes, not from 1 to %d",
+                       axes < 0 ? 0 : axes, KOKSMA_AXES_MOST);
+    for (size_t j = 0; j < a.count && status == KOKSMA_OK; j++) {
+        size_t from = fortran ? a.count - 1 - j : j;
+
+        status = check_size(rows, length[from], err);
+        if (status != KOKSMA_OK) return status;
+        a.length[j] = (size_t)length[from];
+        if (j + 1 < a.count || a.count == 1) rows *= length[from];
+    }
+    r->axes = a;
+    r->rows = (size_t)rows;
+    r->columns = a.count > 1 ? a.length[a.count - 1] : 1;
     return KOKSMA_OK;
 }
 
@@ -184,17 +229,36 @@ static koksma_status header_length(koksma_reader *r, size_t *length,
     return KOKSMA_OK;
 }
 
+static koksma_status take_header(koksma_reader *r, const char *header,
+                                 koksma_error *err)
+{
+    const char *order = entry(header, "'fortran_order'");
+    bool fortran = order != NULL && strncmp(order, "True", 4) == 0;
+    koksma_status status = take_type(r, header, err);
+
+    if (status == KOKSMA_OK)
+        status = r->grid ? take_axes(r, header, fortran, err)
+                         : take_shape(r, header, err);
+    if (status == KOKSMA_OK && order == NULL)
+        status = ki_fail(err, KOKSMA_EFORMAT, 0, "the .npy header names no order");
+    if (status != KOKSMA_OK || r->grid) return status;
+    if (r->content == KOKSMA_VALUES && r->columns < 2)
+        return ki_fail(err, KOKSMA_EFORMAT, 0,
+                       "1 column, but a point and its value take at least 2");
+    return fortran ? read_columns(r, err) : KOKSMA_OK;
+}
+
 koksma_status ki_npy_next(koksma_reader *r, koksma_error *err)
 {
     size_t length = 0;
     koksma_status status;
-    const char *order;
     char *header;
     int c = getc(r->lines.in);
 
     free(r->transposed);
     r->transposed = NULL;
     r->columns = r->rows = r->row = 0;
+    r->axes.count = 0;
     if (c == EOF && !ferror(r->lines.in)) return KOKSMA_OK;
     ungetc(c, r->lines.in);
     status = header_length(r, &length, err);
@@ -207,16 +271,7 @@ koksma_status ki_npy_next(koksma_reader *r, koksma_error *err)
     }
     header[length] = '\0';
 
-    status = take_type(r, header, err);
-    if (status == KOKSMA_OK) status = take_shape(r, header, err);
-    order = entry(header, "'fortran_order'");
-    if (status == KOKSMA_OK && order == NULL)
-        status = ki_fail(err, KOKSMA_EFORMAT, 0, "the .npy header names no order");
-    if (status == KOKSMA_OK && r->content == KOKSMA_VALUES && r->columns < 2)
-        status = ki_fail(err, KOKSMA_EFORMAT, 0,
-                         "1 column, but a point and its value take at least 2");
-    if (status == KOKSMA_OK && strncmp(order, "True", 4) == 0)
-        status = read_columns(r, err);
+    status = take_header(r, header, err);
     free(header);
     if (status != KOKSMA_OK) r->columns = 0;
     return status;
@@ -255,7 +310,8 @@ koksma_status ki_npy_rows(koksma_reader *r, double *rows, size_t room, size_t *g
     else
         have = read_items(r, rows, items);
     /* What did arrive is looked at first, whatever the block. */
-    for (size_t i = 0; i < have / r->columns && status == KOKSMA_OK; i++)
+    for (size_t i = 0; !r->grid && i < have / r->columns && status == KOKSMA_OK;
+         i++)
         status = check_row(r, rows + i * r->columns, r->row + i + 1, err);
     if (status == KOKSMA_OK && have < items) status = cut_short(r, err);
     if (status != KOKSMA_OK) return status;

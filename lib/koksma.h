@@ -3,6 +3,7 @@
 
 /* libkoksma: discrepancy and variation analysis.  koksma(3) is the map. */
 
+#include <koksma/bound.h>
 #include <koksma/cells.h>
 #include <koksma/curve.h>
 #include <koksma/fit.h>
@@ -15,5 +16,6 @@
 #include <koksma/rng.h>
 #include <koksma/scene.h>
 #include <koksma/star.h>
+#include <koksma/variation.h>
 
 #endif

@@ -2,6 +2,7 @@
 # so that they can reach ki_ names; libkoksma.la exports koksma_ names alone.
 noinst_LTLIBRARIES = %D%/libcore.la
 %C%_libcore_la_SOURCES = \
+  %D%/bound.c %D%/bound.h \
   %D%/cells.c %D%/cells.h %D%/cells_kernels.h %D%/cells_grid.c %D%/cells_line.c \
   %D%/cells_lines.c %D%/cells_occupancy.c %D%/cells_samples.c %D%/cells_slope.c \
   %D%/curve.c %D%/curve.h \
@@ -35,7 +36,9 @@ noinst_LTLIBRARIES = %D%/libcore.la
   %D%/star_lines_finds.c %D%/star_lines_flow.c %D%/star_lines_grid.c %D%/star_lines_kernels.h \
   %D%/star_lines_leaf.c %D%/star_lines_tasks.c %D%/star_lines_thin.c \
   %D%/star_ranks.c %D%/star_run.c %D%/star_run_kernels.h %D%/star_search.c \
-  %D%/star_sort.c %D%/star_tree.c %D%/star_tree_kernels.h
+  %D%/star_sort.c %D%/star_tree.c %D%/star_tree_kernels.h \
+  %D%/variation.c %D%/variation.h %D%/variation_kernels.h %D%/variation_grid.c \
+  %D%/variation_points.c %D%/variation_random.c %D%/variation_tree.c
 %C%_libcore_la_CPPFLAGS = $(AM_CPPFLAGS) -I$(top_builddir)/%D%
 
 # Sobol's direction numbers, from the published table to C.
@@ -56,7 +59,7 @@ lib_LTLIBRARIES = %D%/libkoksma.la
 include_HEADERS = %D%/koksma.h
 koksmaincludedir = $(includedir)/koksma
 koksmainclude_HEADERS = \
-  %D%/cells.h %D%/curve.h %D%/fit.h %D%/gen.h %D%/integrand.h %D%/io.h %D%/l2.h %D%/num.h \
-  %D%/points.h %D%/rng.h %D%/scene.h %D%/star.h
+  %D%/bound.h %D%/cells.h %D%/curve.h %D%/fit.h %D%/gen.h %D%/integrand.h %D%/io.h %D%/l2.h %D%/num.h \
+  %D%/points.h %D%/rng.h %D%/scene.h %D%/star.h %D%/variation.h
 
 pkgconfig_DATA = %D%/koksma.pc

@@ -49,11 +49,11 @@ t npy-pipe 0 "1000${tab}3${tab}x" "" \
     'koksma-points random -d 3 -n 1e3 --npy >p.npy
      koksma-points random -d 3 -n 1e3 >p.txt
      koksma-star -q p.npy >1; koksma-star -q p.txt >2; cmp 1 2 && cut -f 1,2 1 | sed "s/$/\tx/"'
-t eval 0 "# koksma: integrand=f2 dim=2 a=0.25 exact=0.5 variance=0.11458333333333334 area=1.4142135623730951 jump=0.5
+t eval 0 "# koksma: integrand=f2 dim=2 a=0.25 exact=0.5 variance=0.11458333333333334 area=1.4142135623730951 jump=0.5 extent=2
 # x1${tab}x2${tab}f2
 0.5${tab}0.5${tab}0.25
 0.5${tab}0.75${tab}0.8125" "" 'printf "0.5 0.5\n0.5 .75\n" | koksma-eval f2 -a .25'
-t eval-own-dim 0 "# koksma: integrand=ball dim=3 r=0.25 exact=0.06544984694978735 variance=0.06116616448403676 area=0.7853981633974483 jump=1
+t eval-own-dim 0 "# koksma: integrand=ball dim=3 r=0.25 exact=0.06544984694978735 variance=0.06116616448403676 area=0.7853981633974483 jump=1 extent=1.1780972450961724
 # x1${tab}x2${tab}x3${tab}ball
 0.5${tab}0.5${tab}0.75${tab}1" "" 'echo 0.5 0.5 .75 | koksma-eval ball -a r=.25'
 t eval-two-parameters 0 "0.5${tab}0.5${tab}4" "" 'echo .5 .5 | koksma-eval product-peak -q -a w=.5 -a c=1 -a 2 |
@@ -64,14 +64,14 @@ t eval-no-parameter 0 "# koksma: integrand=sum dim=1 exact=0.5 variance=0.083333
 t eval-list 0 "box${tab}3${tab}c=0.5${tab}0.125" "" 'koksma-eval --list box -d 3 -a .5 -q | cut -f 1-4'
 t eval-list-all 0 "22" "" 'koksma-eval --list -q | wc -l | tr -d " "'
 t eval-list-dim 0 "1" "" 'koksma-eval --list -d 3 | grep -c "^f3"'
-t scene 0 "# koksma: integrand=sphere dim=4 bounces=2 albedo=0.5 cap=0.2 height=1 azimuth=1.1 exact=0.05 neumann=0.2 variance=0.010000000000000002 jump=0.25
+t scene 0 "# koksma: integrand=sphere dim=4 bounces=2 albedo=0.5 cap=0.2 height=1 azimuth=1.1 exact=0.05 neumann=0.2 variance=0.010000000000000002 jump=0.25 axes=3
 # x1${tab}x2${tab}x3${tab}x4${tab}sphere
 1${tab}0${tab}0${tab}0${tab}0.25" "koksma-eval: under-resolved: 1 of 1 walks hit" \
     'echo 1 0 0 0 | koksma-eval sphere --bounces 2 --albedo 0.5 --cap 0.2 -a height=1'
 t scene-resolved 0 "" "" 'koksma-points halton -n 128 | koksma-eval sphere >/dev/null'
 t scene-sets 0 "" "koksma-eval: under-resolved: 1 of 2 sets have fewer than 10 hits; in one of them 0 of 1 walks hit" \
     '{ koksma-points halton -n 128; echo; echo 0 0; } | koksma-eval sphere >/dev/null'
-t error 0 "# koksma: integrand=f2 dim=2 a=0 exact=0.5 variance=0.25 area=1.4142135623730951 jump=1 sigma=0.5 sigma_from=variance largest=1
+t error 0 "# koksma: integrand=f2 dim=2 a=0 exact=0.5 variance=0.25 area=1.4142135623730951 jump=1 extent=2 sigma=0.5 sigma_from=variance largest=1
 # set${tab}N${tab}error${tab}tail${tab}mc
 1${tab}1${tab}-0.5${tab}0.5${tab}0.5
 1${tab}2${tab}0${tab}0.16666666666666666${tab}0.35355339059327373

@@ -12,8 +12,8 @@ AM_TESTS_ENVIRONMENT = \
   PATH='$(abs_top_builddir)/bin':$$PATH; export PATH;
 
 structure_scripts = \
-  %D%/cli.sh %D%/cli_cells.sh %D%/cli_plot.sh %D%/cli_star.sh \
-  %D%/floors.sh %D%/headers.sh %D%/man.sh %D%/names.sh \
+  %D%/cli.sh %D%/cli_bound.sh %D%/cli_cells.sh %D%/cli_plot.sh %D%/cli_star.sh \
+  %D%/cli_variation.sh %D%/floors.sh %D%/headers.sh %D%/man.sh %D%/names.sh \
   %D%/symbols.sh
 TESTS      += $(structure_scripts) %D%/replay.sh
 EXTRA_DIST += $(structure_scripts) %D%/cli_rows.sh %D%/replay.sh %D%/corpus
@@ -35,7 +35,8 @@ unit_tests = \
   %D%/test_io_number %D%/test_io_reader %D%/test_io_table %D%/test_io_write \
   %D%/test_known %D%/test_l2 %D%/test_num %D%/test_part %D%/test_points \
   %D%/test_rng %D%/test_scene %D%/test_shapes %D%/test_split %D%/test_star %D%/test_star_bound %D%/test_star_lines \
-  %D%/test_star_methods %D%/test_star_search %D%/test_star_threads
+  %D%/test_star_methods %D%/test_star_search %D%/test_star_threads \
+  %D%/test_bound %D%/test_variation
 LDADD = %D%/liboracle.la lib/libcore.la $(CHECK_LIBS)
 
 
@@ -121,7 +122,7 @@ clean-fuzz:
 benches = \
   %D%/bench_gen %D%/bench_io %D%/bench_star %D%/bench_star_trade \
   %D%/bench_star_plane %D%/bench_l2 %D%/bench_fit %D%/bench_integrand \
-  %D%/bench_cells
+  %D%/bench_cells %D%/bench_variation
 EXTRA_PROGRAMS += $(benches)
 CLEANFILES     += $(benches)
 %C%_bench_gen_SOURCES  = %D%/bench_gen.c %D%/bench.h
@@ -140,6 +141,8 @@ CLEANFILES     += $(benches)
 %C%_bench_fit_LDADD    = lib/libcore.la
 %C%_bench_integrand_SOURCES = %D%/bench_integrand.c %D%/bench.h
 %C%_bench_integrand_LDADD   = lib/libcore.la
+%C%_bench_variation_SOURCES = %D%/bench_variation.c %D%/bench.h
+%C%_bench_variation_LDADD   = lib/libcore.la
 %C%_bench_cells_SOURCES  = %D%/bench_cells.c %D%/bench.h
 %C%_bench_cells_LDADD    = lib/libcore.la
 

@@ -15,6 +15,7 @@
 #include "l2.h"
 #include "oracle.h"
 #include "star.h"
+#include "variation.h"
 
 void *__real_malloc(size_t size);
 void *__real_calloc(size_t count, size_t size);
@@ -217,6 +218,41 @@ static koksma_status fit_job(koksma_error *err)
     return koksma_fit(&f, (koksma_fit_data){x, y, set, 3, 1}, NULL, err);
 }
 
+static koksma_status grid_job(koksma_error *err)
+{
+    static const double x[] = {0, 0, 0, 1, 1, 0, 1, 1}, f[] = {0, 1, 2, 3};
+    koksma_variation_result r;
+
+    return koksma_variation_points(&r, NULL, (koksma_points){x, 4, 2}, f, err);
+}
+
+static koksma_status variation_by(koksma_variation_method method, koksma_error *err)
+{
+    koksma_variation_opts o = {method, 4, 1000.0, 1};
+    koksma_variation_result r;
+    koksma_estimate faces[4];
+    koksma_integrand f;
+    koksma_status status =
+        koksma_integrand_make(&f, NULL, koksma_integrand_find("f2"), 2, NULL, err);
+
+    return status != KOKSMA_OK ? status : koksma_variation(&r, faces, &f, &o, err);
+}
+
+static koksma_status dense_job(koksma_error *err)
+{
+    return variation_by(KOKSMA_VARIATION_GRID, err);
+}
+
+static koksma_status boundary_job(koksma_error *err)
+{
+    return variation_by(KOKSMA_VARIATION_BOUNDARY, err);
+}
+
+static koksma_status random_job(koksma_error *err)
+{
+    return variation_by(KOKSMA_VARIATION_RANDOM, err);
+}
+
 /* Nothing is asserted here: Check allocates. */
 static koksma_integrand ball(void)
 {
@@ -279,6 +315,10 @@ START_TEST(every_allocation_may_fail)
     ck_assert_int_ge(exhaust(table_job), 4);
     ck_assert_int_ge(exhaust(curve_job), 1);
     ck_assert_int_ge(exhaust(fit_job), 6);
+    ck_assert_int_ge(exhaust(grid_job), 6);
+    ck_assert_int_ge(exhaust(dense_job), 4);
+    ck_assert_int_ge(exhaust(boundary_job), 2);
+    ck_assert_int_ge(exhaust(random_job), 1);
 }
 END_TEST
 

@@ -130,6 +130,32 @@ START_TEST(no_verdict)
 }
 END_TEST
 
+/* Below the saturation nobody can tell, however near or far the exponent seems; but
+ * -1/2 is what holds there. */
+START_TEST(saturated)
+{
+    for (double value = -0.75; value < -0.5; value += 0.15) {
+        koksma_fit_result f = known(value, 0.01);
+        koksma_verdict sure = value == -0.75 ? KOKSMA_EQUIVALENT : KOKSMA_DIFFERENT;
+
+        f.saturation = nextafter(f.to, INFINITY);
+        check_doubt(&f, KOKSMA_UNDECIDED, KOKSMA_DOUBT_SATURATED);
+        f.shape = KOKSMA_FLATTENS;
+        check_doubt(&f, KOKSMA_UNDECIDED, KOKSMA_DOUBT_SATURATED);
+        f.shape = KOKSMA_STRAIGHT;
+        f.saturation = f.to;
+        check_doubt(&f, sure, KOKSMA_NO_DOUBT);
+        f = known(-0.5, 0.01);
+        f.saturation = 1e9;
+        ck_assert_int_eq(koksma_fit_judge(&f, -0.5, NULL, 0, 0.05).verdict,
+                         KOKSMA_EQUIVALENT);
+        f = known(value, (double)NAN);
+        f.saturation = 1e9;
+        check_doubt(&f, KOKSMA_NO_VERDICT, KOKSMA_DOUBT_PATH);
+    }
+}
+END_TEST
+
 START_TEST(theory)
 {
     ck_assert(koksma_fit_theory(1) == -1.0 && koksma_fit_theory(2) == -0.75);
@@ -162,6 +188,7 @@ int main(void)
     tcase_add_test(tc, tests_of_one);
     tcase_add_test(tc, verdicts);
     tcase_add_test(tc, no_verdict);
+    tcase_add_test(tc, saturated);
     tcase_add_test(tc, theory);
     return oracle_run(suite);
 }

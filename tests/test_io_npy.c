@@ -232,6 +232,119 @@ START_TEST(largest_header)
 }
 END_TEST
 
+/* Arrays of values have any number of axes, and Fortran's order is said, not
+ * undone: 24 numbers in the order of the file. */
+START_TEST(arrays_of_any_number_of_axes)
+{
+    static const struct {
+        const char *shape;
+        size_t axes, length[4], columns;
+    } cases[] = {
+        {"(24,)", 1, {24}, 1},
+        {"(4, 6)", 2, {4, 6}, 6},
+        {"(2, 3, 4)", 3, {2, 3, 4}, 4},
+        {"(2, 3, 1, 4)", 4, {2, 3, 1, 4}, 4},
+    };
+
+    for (size_t i = 0; i < 8; i++) {
+        bool fortran = i % 2 == 1;
+        size_t axes = cases[i / 2].axes, columns = 0, got = 1, seen = 0;
+        char dictionary[160];
+        koksma_reader *r;
+        koksma_axes a;
+        array made;
+        FILE *in;
+
+        snprintf(dictionary, sizeof dictionary,
+                 "{'descr': '<f4', 'fortran_order': %s, 'shape': %s}",
+                 fortran ? "True" : "False", cases[i / 2].shape);
+        begin(&made);
+        put_header(&made, 1, dictionary);
+        for (int v = 0; v < 24; v++)
+            put_number(&made, v == 7 ? (double)NAN : v * 3.0, '<', '4');
+        in = finish(&made);
+        ck_assert_int_eq(koksma_reader_open(&r, in, KOKSMA_GRID, NULL), KOKSMA_OK);
+        ck_assert_int_eq(koksma_reader_next(r, &columns, NULL), KOKSMA_OK);
+        a = koksma_reader_axes(r);
+        ck_assert_uint_eq(a.count, axes);
+        ck_assert(a.reversed == fortran);
+        for (size_t j = 0; j < axes; j++)
+            ck_assert_uint_eq(a.length[fortran ? axes - 1 - j : j],
+                              cases[i / 2].length[j]);
+        ck_assert_uint_eq(columns, axes == 1 ? 1 : a.length[axes - 1]);
+        while (got > 0) {
+            double rows[24];
+
+            ck_assert_int_eq(koksma_reader_rows(r, rows, 1 + i % 2, &got, NULL),
+                             KOKSMA_OK);
+            for (size_t v = 0; v < got * columns; v++, seen++)
+                ck_assert(seen == 7 ? isnan(rows[v])
+                                    : rows[v] == 3.0 * (double)seen);
+        }
+        ck_assert_uint_eq(seen, 24);
+        koksma_reader_close(r);
+        fclose(in);
+        free(made.bytes);
+    }
+}
+END_TEST
+
+/* Text read so is points and values; it has no axes. */
+START_TEST(grids_in_text)
+{
+    char text[] = "0.5 7\n";
+    FILE *in = stream_of_text(text);
+    koksma_reader *r;
+    koksma_set set = {0};
+
+    ck_assert_int_eq(koksma_reader_open(&r, in, KOKSMA_GRID, NULL), KOKSMA_OK);
+    ck_assert_int_eq(koksma_set_read(&set, r, NULL), KOKSMA_OK);
+    ck_assert_uint_eq(koksma_reader_axes(r).count, 0);
+    ck_assert(set.n == 1 && set.dim == 1 && set.x[0] == 0.5 && set.f[0] == 7.0);
+    koksma_reader_close(r);
+    koksma_set_free(&set);
+    fclose(in);
+}
+END_TEST
+
+static void check_no_grid(const char *shape, const char *text)
+{
+    char dictionary[400];
+    size_t columns;
+    koksma_reader *r;
+    koksma_error err;
+    array a;
+    FILE *in;
+
+    snprintf(dictionary, sizeof dictionary,
+             "{'descr': '<f8', 'fortran_order': False, 'shape': %s}", shape);
+    begin(&a);
+    put_header(&a, 1, dictionary);
+    in = finish(&a);
+    ck_assert_int_eq(koksma_reader_open(&r, in, KOKSMA_GRID, NULL), KOKSMA_OK);
+    ck_assert_int_eq(koksma_reader_next(r, &columns, &err), KOKSMA_EFORMAT);
+    ck_assert_str_eq(err.text, text);
+    koksma_reader_close(r);
+    fclose(in);
+    free(a.bytes);
+}
+
+START_TEST(arrays_that_are_no_grid)
+{
+    check_no_grid("()", "the .npy array has 0 axes, not from 1 to 32");
+    check_no_grid(
+        "(2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, "
+        "2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2)",
+        "the .npy array has 33 axes, not from 1 to 32");
+    check_no_grid("(2, 0, 2)", "the .npy array is empty");
+    check_no_grid("[2, 2]", "the .npy array has 0 axes, not from 1 to 32");
+    check_no_grid(
+        "(2, 4294967296, 4294967296)",
+        "the .npy array of 8589934592 by 4294967296 is more than memory can "
+        "hold");
+}
+END_TEST
+
 static Suite *io_suite(void)
 {
     Suite *suite = suite_create("io_npy");
@@ -240,6 +353,9 @@ static Suite *io_suite(void)
     suite_add_tcase(suite, tc);
     tcase_set_timeout(tc, 20.0);
     tcase_add_test(tc, every_kind_of_array);
+    tcase_add_test(tc, arrays_of_any_number_of_axes);
+    tcase_add_test(tc, grids_in_text);
+    tcase_add_test(tc, arrays_that_are_no_grid);
     tcase_add_test(tc, arrays_of_values);
     tcase_add_test(tc, every_kind_of_header);
     tcase_add_test(tc, large_arrays);

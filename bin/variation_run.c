@@ -1,0 +1,189 @@
+#include "variation_run.h"
+
+#include <errno.h>
+#include <math.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/types.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "cli.h"
+
+enum { NODES_USUAL = 1 << 16, NODES_MOST = 1 << 28 };
+
+/* One run: a process writes the nodes, another is the program, and this one reads,
+ * so that none waits for one that waits for it. */
+typedef struct run {
+    const char *command;
+    size_t dim, k;
+    double nodes;
+    pid_t writer, program;
+    FILE *in;
+} run;
+
+/* ---- Two processes ----------------------------------------------------------- */
+
+static int write_nodes(FILE *out, size_t dim, size_t k)
+{
+    size_t at[KOKSMA_VARIATION_DIM_MOST] = {0}, j;
+    double x[KOKSMA_VARIATION_DIM_MOST] = {0.0};
+
+    do {
+        if (koksma_write_rows(out, x, 1, dim, KOKSMA_DECIMAL, NULL)) return 1;
+        for (j = dim; j > 0 && at[j - 1] == k; j--) {
+            at[j - 1] = 0;
+            x[j - 1] = 0.0;
+        }
+        if (j > 0) x[j - 1] = (double)++at[j - 1] / (double)k;
+    } while (j > 0);
+    return fflush(out) != 0;
+}
+
+static pid_t fork_or_fail(void)
+{
+    pid_t id = fork();
+
+    if (id < 0) cli_fail("cannot start a process: %s", strerror(errno));
+    return id;
+}
+
+static void start(run *r)
+{
+    int nodes[2], values[2];
+
+    if (pipe(nodes) != 0 || pipe(values) != 0)
+        cli_fail("cannot make a pipe: %s", strerror(errno));
+    r->program = fork_or_fail();
+    if (r->program == 0) {
+        dup2(nodes[0], STDIN_FILENO);
+        dup2(values[1], STDOUT_FILENO);
+        close(nodes[0]);
+        close(nodes[1]);
+        close(values[0]);
+        close(values[1]);
+        execl("/bin/sh", "sh", "-c", r->command, (char *)NULL);
+        _exit(127);
+    }
+    close(nodes[0]);
+    close(values[1]);
+    r->writer = fork_or_fail();
+    if (r->writer == 0) {
+        FILE *out = fdopen(nodes[1], "w");
+
+        signal(SIGPIPE, SIG_DFL); /* a program need not read them all */
+        close(values[0]);
+        _exit(out == NULL || write_nodes(out, r->dim, r->k));
+    }
+    close(nodes[1]);
+    r->in = fdopen(values[0], "r");
+    if (r->in == NULL) cli_fail("not enough memory");
+}
+
+/* Wait for both; no sentence where the program was done before its output was read.
+ */
+static void finish(run *r, bool done)
+{
+    int status;
+
+    fclose(r->in);
+    waitpid(r->writer, NULL, 0);
+    waitpid(r->program, &status, 0);
+    if (!done) return;
+    if (WIFSIGNALED(status))
+        cli_fail("the program was killed by signal %d at k = %zu", WTERMSIG(status),
+                 r->k);
+    if (WEXITSTATUS(status) != 0)
+        cli_fail("the program left with status %d at k = %zu", WEXITSTATUS(status),
+                 r->k);
+}
+
+/* ---- What it prints ---------------------------------------------------------- */
+
+/* The last field of a line, a finite number. */
+static double read_value(const run *r, char *line, double number)
+{
+    size_t length = strlen(line);
+    char *field, *end;
+    double v;
+
+    while (length > 0 && strchr(" \t\r\n,", line[length - 1]) != NULL)
+        line[--length] = '\0';
+    field = line + length;
+    while (field > line && strchr(" \t,", field[-1]) == NULL)
+        field--;
+    v = strtod(field, &end);
+    if (end == field || *end != '\0' || !isfinite(v))
+        cli_fail(
+            "value %.0f of the program at k = %zu is %.40s, not a finite number",
+            number, r->k, field);
+    return v;
+}
+
+/* Comments and blank lines are no values. */
+static void read_values(run *r, koksma_variation_grid *g)
+{
+    char *line = NULL;
+    size_t room = 0;
+    double count = 0.0;
+    koksma_error err;
+
+    while (getline(&line, &room, r->in) >= 0) {
+        double v;
+
+        if (line[0] == '#' || line[strspn(line, " \t\r\n")] == '\0') continue;
+        if (++count > r->nodes) break;
+        v = read_value(r, line, count);
+        if (koksma_variation_add(g, &v, 1, &err)) cli_fail_as(&err);
+    }
+    free(line);
+    if (count > r->nodes)
+        cli_fail("the program printed more than %.0f values for as many points at "
+                 "k = %zu",
+                 r->nodes, r->k);
+    finish(r, true);
+    if (count < r->nodes)
+        cli_fail("the program printed %.0f values for %.0f points at k = %zu",
+                 count, r->nodes, r->k);
+}
+
+/* ---- Rounds ------------------------------------------------------------------ */
+
+static void one_round(koksma_variation_result *out, koksma_estimate *faces, run *r)
+{
+    size_t nodes[KOKSMA_VARIATION_DIM_MOST];
+    koksma_variation_grid *g;
+    koksma_error err;
+
+    for (size_t j = 0; j < r->dim; j++)
+        nodes[j] = r->k + 1;
+    if (koksma_variation_open(&g, nodes, r->dim, &err)) cli_fail_as(&err);
+    start(r);
+    read_values(r, g);
+    if (koksma_variation_finish(out, faces, g, &err)) cli_fail_as(&err);
+    koksma_variation_close(g);
+}
+
+static double nodes_of(size_t k, size_t dim)
+{
+    return pow((double)k + 1.0, (double)dim);
+}
+
+void variation_run(koksma_variation_result *out, koksma_estimate *faces,
+                   const char *command, size_t dim, size_t cells)
+{
+    run r = {.command = command, .dim = dim};
+    double most = cells > 0 ? NODES_MOST : NODES_USUAL;
+    size_t first = cells == 2 || nodes_of(4, dim) > most ? 2 : 4;
+
+    if (nodes_of(cells > 0 ? cells : 2, dim) > NODES_MOST)
+        cli_fail("%zu cells on each of %zu axes have %.3g nodes, and a program is "
+                 "asked for 2^28 at most",
+                 cells > 0 ? cells : 2, dim, nodes_of(cells > 0 ? cells : 2, dim));
+    for (r.k = first; r.k == first || nodes_of(r.k, dim) <= most; r.k *= 2) {
+        r.nodes = nodes_of(r.k, dim);
+        one_round(out, faces, &r);
+        if (out->trend == KOKSMA_TREND_CONVERGED || r.k == cells) return;
+    }
+}
