@@ -6,16 +6,18 @@
 #include "cli.h"
 #include "gen.h"
 
-enum { START = CLI_LONG, BASES, SCRAMBLE, REPLICATES, NPY, HEX, LIST };
+enum { START = CLI_LONG, LEAP, BASES, SCRAMBLE, BAKER, REPLICATES, NPY, HEX, LIST };
 
 static const cli_option options[] = {
     {'d', "dim", "DIM", "coordinates a point (default 2)"},
     {'n', "points", "N", "points a set (default 1024)"},
     {'s', "seed", "SEED", "fixes every random bit (default 1)"},
     {START, "start", "INDEX", "first index of a sequence (default 0)"},
+    {LEAP, "leap", "STEP", "from one index to the next (default 1)"},
     {BASES, "bases", "B,B,...", "coprime bases instead of the first primes"},
-    {SCRAMBLE, "scramble", "none|digits",
-     "permute the digits at random (default none)"},
+    {SCRAMBLE, "scramble", "none|digits|owen|matrix|shift",
+     "permute the digits at random, nested or not, or shift (default none)"},
+    {BAKER, "baker", NULL, "fold every coordinate in the middle"},
     {REPLICATES, "replicates", "R", "so many independent sets (default 1)"},
     {NPY, "npy", NULL, "write NumPy arrays"},
     {HEX, "hex", NULL, "write hexadecimal numbers"},
@@ -30,12 +32,14 @@ enum { BLOCK = 4096, BASES_MOST = 10000 };
 
 static void list_families(void)
 {
-    if (!cli_quiet()) puts("# family\tdimensions\tsummary");
+    if (!cli_quiet()) puts("# family\tdimensions\tneeds\tsummary");
     for (const koksma_gen_family *f = koksma_gen_families; f->name != NULL; f++) {
+        printf("%s\t", f->name);
         if (f->max_dim > 1000000)
-            printf("%s\tany\t%s\n", f->name, f->summary);
+            fputs("any", stdout);
         else
-            printf("%s\t1-%zu\t%s\n", f->name, f->max_dim, f->summary);
+            printf("1-%zu", f->max_dim);
+        printf("\t%s\t%s\n", f->needs, f->summary);
     }
     cli_finish(CLI_DONE);
 }
@@ -55,11 +59,18 @@ static size_t read_bases(uint32_t *bases, char *text)
     return count;
 }
 
+static const char *const scrambles[] = {
+    [KOKSMA_SCRAMBLE_NONE] = "none",   [KOKSMA_SCRAMBLE_DIGITS] = "digits",
+    [KOKSMA_SCRAMBLE_OWEN] = "owen",   [KOKSMA_SCRAMBLE_MATRIX] = "matrix",
+    [KOKSMA_SCRAMBLE_SHIFT] = "shift",
+};
+
 static koksma_scramble read_scramble(const char *text)
 {
-    if (strcmp(text, "none") == 0) return KOKSMA_SCRAMBLE_NONE;
-    if (strcmp(text, "digits") == 0) return KOKSMA_SCRAMBLE_DIGITS;
-    cli_usage("--scramble takes none or digits, not \"%s\"", text);
+    for (size_t i = 0; i < sizeof scrambles / sizeof *scrambles; i++)
+        if (strcmp(text, scrambles[i]) == 0) return (koksma_scramble)i;
+    cli_usage("--scramble takes none, digits, owen, matrix or shift, not \"%s\"",
+              text);
 }
 
 /* The command line, and what it means to the tools further down the pipe. */
@@ -73,9 +84,10 @@ static void print_comment(int argc, char *argv[], const koksma_gen_opts *o,
         for (const char *s = argv[i]; *s != '\0'; s++)
             putchar(*s == '\n' ? '?' : *s);
     }
-    printf("\n# koksma: points=%s scramble=%s", family,
-           o->scramble == KOKSMA_SCRAMBLE_DIGITS ? "digits" : "none");
+    printf("\n# koksma: points=%s scramble=%s", family, scrambles[o->scramble]);
     if (o->start > 0) printf(" start=%ju", (uintmax_t)o->start);
+    if (o->leap > 1) printf(" leap=%ju", (uintmax_t)o->leap);
+    if (o->baker) fputs(" baker=1", stdout);
     putchar('\n');
 }
 
@@ -90,6 +102,19 @@ static koksma_gen *open_set(const koksma_gen_family *family,
     if (status == KOKSMA_EINVAL) cli_usage("%s", err.text);
     if (status != KOKSMA_OK) cli_fail_as(&err);
     return g;
+}
+
+/* Nets have powers of their base. */
+static void warn_of_sizes(const koksma_gen *g, const char *family, uint64_t n)
+{
+    uint64_t b = koksma_gen_net(g), power = 1;
+
+    if (b == 0) return;
+    while (power <= n / b)
+        power *= b;
+    if (power < n)
+        cli_note("%ju points of %s are no net: %ju or %ju would be", (uintmax_t)n,
+                 family, (uintmax_t)power, (uintmax_t)(power * b));
 }
 
 static void write_set(const koksma_gen *g, const koksma_gen_opts *o,
@@ -137,6 +162,8 @@ int main(int argc, char *argv[])
         case 'n': o.n = cli_count("-n", optarg, 1, UINT64_MAX); break;
         case 's': o.seed = cli_count("-s", optarg, 0, UINT64_MAX); break;
         case START: o.start = cli_count("--start", optarg, 0, UINT64_MAX); break;
+        case LEAP: o.leap = cli_count("--leap", optarg, 1, UINT64_MAX); break;
+        case BAKER: o.baker = true; break;
         case BASES: given = read_bases(bases, optarg); break;
         case SCRAMBLE: o.scramble = read_scramble(optarg); break;
         case REPLICATES:
@@ -152,14 +179,14 @@ int main(int argc, char *argv[])
 
     if (family == NULL)
         cli_usage("no family is called \"%s\"; --list lists them", argv[optind]);
-    if (replicates > 1 && o.scramble == KOKSMA_SCRAMBLE_NONE && !family->random)
-        cli_usage(
-            "replicates of %s would be equal: --scramble digits makes them differ",
-            family->name);
+    if (replicates > 1 && o.scramble == KOKSMA_SCRAMBLE_NONE &&
+        !(family->takes & KOKSMA_TAKES_SEED))
+        cli_usage("replicates of %s would be equal: --scramble makes them differ",
+                  family->name);
     if (given > 0) {
         size_t wanted = o.dim - (family == koksma_gen_find("hammersley"));
 
-        if (family->bases && given != wanted)
+        if (family->takes & KOKSMA_TAKES_BASES && given != wanted)
             cli_usage("%zu bases, but %zu coordinates of %s take %zu", given, o.dim,
                       family->name, wanted);
         o.bases = bases;
@@ -167,6 +194,7 @@ int main(int argc, char *argv[])
     for (o.replicate = 0; o.replicate < replicates; o.replicate++) {
         koksma_gen *g = open_set(family, &o);
 
+        if (o.replicate == 0) warn_of_sizes(g, family->name, o.n);
         if (form != KOKSMA_NPY && o.replicate == 0)
             print_comment(argc, words, &o, family->name);
         if (form != KOKSMA_NPY && o.replicate > 0) putchar('\n');

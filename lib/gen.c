@@ -10,20 +10,27 @@
 /* As many primes are below 2^32, where bases are. */
 enum { PRIMES = 203280221 };
 
+enum {
+    START = KOKSMA_TAKES_START,
+    BASES = KOKSMA_TAKES_BASES,
+    DIGITS = KOKSMA_TAKES_DIGITS,
+    MATRIX = KOKSMA_TAKES_MATRIX,
+    SEED = KOKSMA_TAKES_SEED
+};
+
 const koksma_gen_family koksma_gen_families[] = {
     {"halton", "radical inverses in coprime bases, the first primes by default",
-     PRIMES, true, true, false, &ki_gen_halton},
-    {"hammersley", "i/n, then halton", PRIMES + 1, false, true, false,
+     "-", PRIMES, START | BASES | DIGITS, &ki_gen_halton},
+    {"hammersley", "i/n, then halton", "-", PRIMES + 1, BASES | DIGITS,
      &ki_gen_hammersley},
-    {"sobol", "digital sequence in base 2, Joe and Kuo's direction numbers", 50,
-     true, false, false, &ki_gen_sobol},
-    {"random", "independent and uniform", SIZE_MAX, true, false, true,
+    {"sobol", "digital sequence in base 2, Joe and Kuo's direction numbers", "-",
+     KI_SOBOL_DIMS, START | DIGITS | MATRIX, &ki_gen_sobol},
+    {"random", "independent and uniform", "-", SIZE_MAX, START | SEED,
      &ki_gen_random},
-    {"grid", "{0,...,m-1}/m in each axis, n = m^dim", SIZE_MAX, false, false, false,
-     &ki_gen_grid},
-    {"centred", "{1/2,...,m-1/2}/m in each axis, n = m^dim", SIZE_MAX, false, false,
-     false, &ki_gen_centred},
-    {NULL, NULL, 0, false, false, false, NULL},
+    {"grid", "{0,...,m-1}/m in each axis", "n = m^dim", SIZE_MAX, 0, &ki_gen_grid},
+    {"centred", "{1/2,...,m-1/2}/m in each axis", "n = m^dim", SIZE_MAX, 0,
+     &ki_gen_centred},
+    {NULL, NULL, NULL, 0, 0, NULL},
 };
 
 const koksma_gen_family *koksma_gen_find(const char *name)
@@ -33,31 +40,10 @@ const koksma_gen_family *koksma_gen_find(const char *name)
     return NULL;
 }
 
-static koksma_status check(const koksma_gen_family *f, const koksma_gen_opts *o,
-                           koksma_error *err)
-{
-    if (o->dim < 1 || o->dim > f->max_dim)
-        return ki_fail(err, KOKSMA_EINVAL, 0, "dimension %zu: %s has 1 to %zu",
-                       o->dim, f->name, f->max_dim);
-    if (o->n == 0)
-        return ki_fail(err, KOKSMA_EINVAL, 0, "0 points: a set has at least one");
-    if (!f->sequence && o->start > 0)
-        return ki_fail(err, KOKSMA_EINVAL, 0,
-                       "%s is no sequence: it has no start index", f->name);
-    if (o->n - 1 > UINT64_MAX - o->start)
-        return ki_fail(err, KOKSMA_EINVAL, 0, "indices reach beyond 2^64 - 1");
-    if (!f->bases && o->bases != NULL)
-        return ki_fail(err, KOKSMA_EINVAL, 0, "%s has no bases", f->name);
-    if (!f->bases && o->scramble != KOKSMA_SCRAMBLE_NONE)
-        return ki_fail(err, KOKSMA_EINVAL, 0, "%s has no digits to scramble",
-                       f->name);
-    return KOKSMA_OK;
-}
-
 koksma_status koksma_gen_open(koksma_gen **out, const koksma_gen_family *family,
                               const koksma_gen_opts *opts, koksma_error *err)
 {
-    koksma_status status = check(family, opts, err);
+    koksma_status status = ki_gen_check(family, opts, err);
     koksma_gen *g;
 
     if (status != KOKSMA_OK) return status;
@@ -85,25 +71,40 @@ void koksma_gen_close(koksma_gen *g)
     free(g);
 }
 
-/* The kernels fill a coordinate at a time.  In blocks that stay in the cache the
- * rows are there when the next coordinate comes. */
-static void fill_blocks(const koksma_gen *g, double *x, uint64_t first, size_t count)
+koksma_rng ki_gen_stream(const koksma_gen *g, uint64_t k)
 {
-    size_t block = 8192 / g->opts.dim + 16;
+    koksma_rng streams = koksma_rng_seed(g->opts.seed, g->opts.replicate);
 
-    for (size_t i = 0; i < count; i += block) {
-        size_t now = count - i < block ? count - i : block;
+    return koksma_rng_seed(koksma_rng_next(&streams), k);
+}
 
-        g->family->kernel->fill(g, x + i * g->opts.dim, first + i, now);
-    }
+uint32_t koksma_gen_net(const koksma_gen *g) { return g->net; }
+
+static void fill_some(const koksma_gen *g, double *x, uint64_t first, size_t count)
+{
+    const koksma_gen_opts *o = &g->opts;
+    size_t leaps = o->leap > 1 ? count : 0;
+
+    for (size_t i = 0; i < leaps; i++)
+        g->family->kernel->fill(g, x + i * o->dim, o->start + o->leap * (first + i),
+                                1);
+    if (leaps == 0) g->family->kernel->fill(g, x, o->start + first, count);
+    if (o->scramble == KOKSMA_SCRAMBLE_SHIFT) ki_gen_shift(g, x, count);
+    if (o->baker) ki_gen_fold(x, count * o->dim);
 }
 
 koksma_status koksma_gen_fill(const koksma_gen *g, double *x, uint64_t first,
                               size_t count, koksma_error *err)
 {
+    /* The kernels fill a coordinate at a time.  In blocks that stay in the cache
+     * the rows are there when the next coordinate comes. */
+    size_t block = 4096 / g->opts.dim + 16;
+
     if (first > g->opts.n || count > g->opts.n - first)
         return ki_fail(err, KOKSMA_EINVAL, 0, "points from %ju on: the set has %ju",
                        (uintmax_t)first, (uintmax_t)g->opts.n);
-    fill_blocks(g, x, g->opts.start + first, count);
+    for (size_t i = 0; i < count; i += block)
+        fill_some(g, x + i * g->opts.dim, first + i,
+                  count - i < block ? count - i : block);
     return KOKSMA_OK;
 }

@@ -11,13 +11,22 @@
  * koksma_gen_families.  A sequence is a family whose elements do not depend on how
  * many are asked for; it starts at index 0 unless told. */
 
+/* What a family takes besides dim, n, shift and baker; the rest it refuses. */
+typedef enum koksma_takes {
+    KOKSMA_TAKES_START = 1,  /* start and leap: a sequence, and n only says where it
+                              * stops */
+    KOKSMA_TAKES_BASES = 2,  /* bases */
+    KOKSMA_TAKES_DIGITS = 4, /* scrambling of digits, and nested scrambling */
+    KOKSMA_TAKES_MATRIX = 8, /* scrambling by matrices */
+    KOKSMA_TAKES_SEED = 16   /* random even unscrambled: replicates differ */
+} koksma_takes;
+
 typedef struct koksma_gen_family {
     const char *name;
     const char *summary;
+    const char *needs; /* what must hold or be given, in words; "-": nothing */
     size_t max_dim;
-    bool sequence; /* takes a start index; n only says where to stop */
-    bool bases;    /* takes bases and can scramble digits */
-    bool random;   /* replicates differ even unscrambled */
+    unsigned takes; /* koksma_takes, added up */
     const struct ki_gen_kernel *kernel;
 } koksma_gen_family;
 
@@ -29,17 +38,26 @@ const koksma_gen_family *koksma_gen_find(const char *name);
 
 typedef enum koksma_scramble {
     KOKSMA_SCRAMBLE_NONE,
-    KOKSMA_SCRAMBLE_DIGITS /* every digit place of every coordinate permuted at
-                              random */
+    KOKSMA_SCRAMBLE_DIGITS, /* every digit place of every coordinate permuted at
+                             * random; in base 2, the digital shift */
+    KOKSMA_SCRAMBLE_OWEN, /* nested: permuted at random, depending on all the digits
+                           * before the place [Owen 1995] */
+    KOKSMA_SCRAMBLE_MATRIX, /* digits times a random lower triangular matrix, then
+                             * permuted [Matousek 1998] */
+    KOKSMA_SCRAMBLE_SHIFT   /* every coordinate plus a random number, modulo 1, cut
+                             * off   to a multiple of 2^-53 [Cranley, Patterson 1976]
+                             */
 } koksma_scramble;
 
 typedef struct koksma_gen_opts {
     size_t dim;
     uint64_t n;     /* points in all: a grid's and Hammersley's depend on it */
     uint64_t start; /* index of the first point of a sequence */
+    uint64_t leap;  /* from one index to the next; 0 means 1 */
     const uint32_t *bases; /* pairwise coprime, >= 2: dim of them, for Hammersley
                             * dim - 1; NULL: the first primes */
     koksma_scramble scramble;
+    bool baker;         /* then fold: x becomes 1 - |2x - 1| [Hickernell 2002] */
     uint64_t seed;      /* fixes every bit, on every machine */
     uint64_t replicate; /* independent randomisations of one seed: 0, 1, ... */
 } koksma_gen_opts;
@@ -53,14 +71,19 @@ typedef struct koksma_gen koksma_gen;
  * the digit places, infinitely many zeros in front of the index included, has a
  * permutation of its own, drawn uniformly [Owen, Pan 2023 on its variance]; the
  * result is within two ulps and below 1.  Hammersley: i/n, then Halton.  Sobol':
- * Gray-code order, the direction numbers of [Joe, Kuo 2008].  Grid: {0..m-1}/m in
- * each axis, n = m^dim, the last coordinate fastest; centred: {1/2..m-1/2}/m.
+ * Gray-code order, the direction numbers of [Joe, Kuo 2008], 64 binary places;
+ * scrambled, cut off to a multiple of 2^-53, as random coordinates are.  Grid:
+ * {0..m-1}/m in each axis, n = m^dim, the last coordinate fastest; centred:
+ * {1/2..m-1/2}/m.
+ *
+ * Folding makes of the 1 that it may come to the double below it.
  *
  * Returns: KOKSMA_OK; KOKSMA_EINVAL: dim out of the family's range, n = 0 or not
- *          m^dim, start + n above 2^64, start, bases or scrambling given to a
- *          family that has none, bases below 2 or with a common factor;
- *          KOKSMA_ENOMEM
- * Cost:    the permutations take 4 sum_k b_k ceil(64/log2 b_k) bytes */
+ *          m^dim, an index above 2^64 - 1, an option given to a family that does
+ *          not take it, bases below 2 or with a common factor, a leap with a factor
+ *          in common with a base; KOKSMA_ENOMEM
+ * Cost:    permutations of digits take 4 sum_k b_k ceil(64/log2 b_k) bytes, digital
+ *          sequences 0.5 kB a coordinate and 2 kB more when nested */
 koksma_status koksma_gen_open(koksma_gen **out, const koksma_gen_family *family,
                               const koksma_gen_opts *opts, koksma_error *err);
 void koksma_gen_close(koksma_gen *g); /* g may be NULL */
@@ -71,5 +94,9 @@ void koksma_gen_close(koksma_gen *g); /* g may be NULL */
  * Returns: KOKSMA_OK; KOKSMA_EINVAL when first + count is above n */
 koksma_status koksma_gen_fill(const koksma_gen *g, double *x, uint64_t first,
                               size_t count, koksma_error *err);
+
+/* The base b of a sequence whose first b^m points are a net for every m, and less
+ * even in other numbers; 0 for a family that is none. */
+uint32_t koksma_gen_net(const koksma_gen *g);
 
 #endif

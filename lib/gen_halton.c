@@ -11,10 +11,10 @@ typedef struct halton {
     ki_radical radical[];
 } halton;
 
-static uint32_t gcd(uint32_t a, uint32_t b)
+static uint64_t gcd(uint64_t a, uint64_t b)
 {
     while (b > 0) {
-        uint32_t rest = a % b;
+        uint64_t rest = a % b;
 
         a = b;
         b = rest;
@@ -57,11 +57,20 @@ static void take_primes(halton *h)
     }
 }
 
+/* Leaps with a factor in common with a base would miss whole intervals. */
+static koksma_status check_leap(const halton *h, uint64_t leap, koksma_error *err)
+{
+    for (size_t k = 0; k < h->bases && leap > 1; k++)
+        if (gcd(leap, h->radical[k].base) > 1)
+            return ki_fail(err, KOKSMA_EINVAL, 0,
+                           "leap %ju and base %ju have a common factor",
+                           (uintmax_t)leap, (uintmax_t)h->radical[k].base);
+    return KOKSMA_OK;
+}
+
 static koksma_status prepare(koksma_gen *g, size_t bases, koksma_error *err)
 {
     const koksma_gen_opts *o = &g->opts;
-    koksma_rng streams = koksma_rng_seed(o->seed, o->replicate);
-    uint64_t seed = koksma_rng_next(&streams);
     koksma_status status = KOKSMA_OK;
     size_t bytes;
     halton *h;
@@ -75,9 +84,10 @@ static koksma_status prepare(koksma_gen *g, size_t bases, koksma_error *err)
         status = take_bases(h, o->bases, err);
     else
         take_primes(h);
-    if (status != KOKSMA_OK || o->scramble == KOKSMA_SCRAMBLE_NONE) return status;
+    if (status == KOKSMA_OK) status = check_leap(h, o->leap, err);
+    if (status != KOKSMA_OK || o->scramble != KOKSMA_SCRAMBLE_DIGITS) return status;
     for (size_t k = 0; k < bases; k++)
-        if (ki_radical_permute(&h->radical[k], seed, k) != 0)
+        if (ki_radical_permute(&h->radical[k], ki_gen_stream(g, k)) != 0)
             return ki_fail_memory(err, "the digit permutations");
     return KOKSMA_OK;
 }

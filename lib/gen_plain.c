@@ -2,7 +2,6 @@
 
 #include "error.h"
 #include "gen_kernels.h"
-#include "rng.h"
 
 /* Random points, and grids. */
 
@@ -12,8 +11,7 @@ static void fill_random(const koksma_gen *g, double *x, uint64_t first,
     koksma_rng r = koksma_rng_seed(g->opts.seed, g->opts.replicate);
 
     koksma_rng_skip(&r, first * g->opts.dim);
-    for (size_t i = 0; i < count * g->opts.dim; i++)
-        x[i] = koksma_rng_unit(&r);
+    ki_random_fractions(x, r, count * g->opts.dim);
 }
 
 /* m^dim, or 0 when it is 2^64 or more. */

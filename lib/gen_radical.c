@@ -62,10 +62,9 @@ unsigned ki_radical_digits(uint32_t base)
     return digits;
 }
 
-int ki_radical_permute(ki_radical *r, uint64_t seed, uint64_t stream)
+int ki_radical_permute(ki_radical *r, koksma_rng rng)
 {
     unsigned digits = ki_radical_digits(r->base);
-    koksma_rng rng = koksma_rng_seed(seed, stream);
 
     r->permutation = ki_alloc(digits, r->base * sizeof *r->permutation);
     if (r->permutation == NULL) return -1;

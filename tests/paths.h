@@ -36,8 +36,9 @@ static inline void path_add(double *xs, double *ys, size_t *sets,
     const koksma_integrand_row *integrand = koksma_integrand_find(kind.integrand);
     koksma_gen_opts o = {.dim = integrand->dim,
                          .n = kind.n,
-                         .scramble = family->random ? KOKSMA_SCRAMBLE_NONE
-                                                    : KOKSMA_SCRAMBLE_DIGITS,
+                         .scramble = family->takes & KOKSMA_TAKES_SEED
+                                         ? KOKSMA_SCRAMBLE_NONE
+                                         : KOKSMA_SCRAMBLE_DIGITS,
                          .seed = kind.seed,
                          .replicate = replicate};
     double *x = malloc(PATH_BLOCK * o.dim * sizeof *x), values[PATH_BLOCK];
