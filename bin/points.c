@@ -6,7 +6,18 @@
 #include "cli.h"
 #include "gen.h"
 
-enum { START = CLI_LONG, LEAP, BASES, SCRAMBLE, BAKER, REPLICATES, NPY, HEX, LIST };
+enum {
+    START = CLI_LONG,
+    LEAP,
+    BASES,
+    VECTOR,
+    SCRAMBLE,
+    BAKER,
+    REPLICATES,
+    NPY,
+    HEX,
+    LIST
+};
 
 static const cli_option options[] = {
     {'d', "dim", "DIM", "coordinates a point (default 2)"},
@@ -15,6 +26,8 @@ static const cli_option options[] = {
     {START, "start", "INDEX", "first index of a sequence (default 0)"},
     {LEAP, "leap", "STEP", "from one index to the next (default 1)"},
     {BASES, "bases", "B,B,...", "coprime bases instead of the first primes"},
+    {VECTOR, "vector", "Z,Z,...",
+     "what a lattice or Kronecker sequence is made of"},
     {SCRAMBLE, "scramble", "none|digits|owen|matrix|shift",
      "permute the digits at random, nested or not, or shift (default none)"},
     {BAKER, "baker", NULL, "fold every coordinate in the middle"},
@@ -28,7 +41,7 @@ static const cli_option options[] = {
 static const cli_tool tool = {"koksma-points", "FAMILY",
                               "Write point sets of a family.", options};
 
-enum { BLOCK = 4096, BASES_MOST = 10000 };
+enum { BLOCK = 4096, WORDS_MOST = 10000 };
 
 static void list_families(void)
 {
@@ -38,25 +51,71 @@ static void list_families(void)
         if (f->max_dim > 1000000)
             fputs("any", stdout);
         else
-            printf("1-%zu", f->max_dim);
+            printf(f->max_dim > 1 ? "1-%zu" : "%zu", f->max_dim);
         printf("\t%s\t%s\n", f->needs, f->summary);
     }
     cli_finish(CLI_DONE);
 }
 
-/* Split "2,3,5"; returns how many there are. */
-static size_t read_bases(uint32_t *bases, char *text)
+/* Since lists are taken apart, and the command line is still to be written. */
+static char *copy_of(const char *text)
+{
+    char *copy = strdup(text);
+
+    if (copy == NULL) cli_fail("not enough memory");
+    return copy;
+}
+
+/* "2,3,5" apart, in place; returns how many there are. */
+static size_t split(const char *option, char **word, char *text)
 {
     size_t count = 0;
 
     for (char *next; text != NULL; text = next) {
         next = strchr(text, ',');
         if (next != NULL) *next++ = '\0';
-        if (count == BASES_MOST)
-            cli_usage("--bases takes at most %d bases", BASES_MOST);
-        bases[count++] = (uint32_t)cli_count("--bases", text, 2, UINT32_MAX);
+        if (count == WORDS_MOST)
+            cli_usage("%s takes at most %d numbers", option, WORDS_MOST);
+        word[count++] = text;
     }
     return count;
+}
+
+/* What is made of such lists, as far as the family takes it. */
+typedef struct lists {
+    char *bases, *vector; /* as given, taken apart, or NULL */
+    uint32_t base[WORDS_MOST];
+    uint64_t z[WORDS_MOST];
+    double alpha[WORDS_MOST];
+} lists;
+
+static void read_lists(lists *l, koksma_gen_opts *o,
+                       const koksma_gen_family *family)
+{
+    static char *word[WORDS_MOST];
+
+    if (l->bases != NULL) {
+        size_t count = split("--bases", word, l->bases);
+        size_t wanted = o->dim - (family == koksma_gen_find("hammersley"));
+
+        for (size_t i = 0; i < count; i++)
+            l->base[i] = (uint32_t)cli_count("--bases", word[i], 2, UINT32_MAX);
+        if (family->takes & KOKSMA_TAKES_BASES && count != wanted)
+            cli_usage("%zu bases, but %zu coordinates of %s take %zu", count,
+                      o->dim, family->name, wanted);
+        o->bases = l->base;
+    }
+    if (l->vector == NULL) return;
+    o->vector_size = o->alpha_size = split("--vector", word, l->vector);
+    for (size_t i = 0; i < o->vector_size; i++)
+        if (family->takes & KOKSMA_TAKES_ALPHA)
+            l->alpha[i] = cli_real("--vector", word[i], 0.0, 0x1p53);
+        else
+            l->z[i] = cli_count("--vector", word[i], 0, UINT64_MAX);
+    if (family->takes & KOKSMA_TAKES_ALPHA)
+        o->alpha = l->alpha;
+    else
+        o->vector = l->z;
 }
 
 static const char *const scrambles[] = {
@@ -142,11 +201,10 @@ static void write_set(const koksma_gen *g, const koksma_gen_opts *o,
 
 int main(int argc, char *argv[])
 {
-    static uint32_t bases[BASES_MOST];
-    koksma_gen_opts o = {.dim = 2, .n = 1024, .seed = 1};
+    static lists given;
+    koksma_gen_opts o = {.dim = 0, .n = 1024, .seed = 1};
     koksma_form form = KOKSMA_DECIMAL;
     uint64_t replicates = 1;
-    size_t given = 0;
     int c;
 
     char **words = malloc(((size_t)argc + 1) * sizeof *words);
@@ -164,7 +222,8 @@ int main(int argc, char *argv[])
         case START: o.start = cli_count("--start", optarg, 0, UINT64_MAX); break;
         case LEAP: o.leap = cli_count("--leap", optarg, 1, UINT64_MAX); break;
         case BAKER: o.baker = true; break;
-        case BASES: given = read_bases(bases, optarg); break;
+        case BASES: given.bases = copy_of(optarg); break;
+        case VECTOR: given.vector = copy_of(optarg); break;
         case SCRAMBLE: o.scramble = read_scramble(optarg); break;
         case REPLICATES:
             replicates = cli_count("--replicates", optarg, 1, 1000000);
@@ -179,18 +238,12 @@ int main(int argc, char *argv[])
 
     if (family == NULL)
         cli_usage("no family is called \"%s\"; --list lists them", argv[optind]);
+    if (o.dim == 0) o.dim = family->max_dim > 1 ? 2 : 1;
     if (replicates > 1 && o.scramble == KOKSMA_SCRAMBLE_NONE &&
         !(family->takes & KOKSMA_TAKES_SEED))
         cli_usage("replicates of %s would be equal: --scramble makes them differ",
                   family->name);
-    if (given > 0) {
-        size_t wanted = o.dim - (family == koksma_gen_find("hammersley"));
-
-        if (family->takes & KOKSMA_TAKES_BASES && given != wanted)
-            cli_usage("%zu bases, but %zu coordinates of %s take %zu", given, o.dim,
-                      family->name, wanted);
-        o.bases = bases;
-    }
+    read_lists(&given, &o, family);
     for (o.replicate = 0; o.replicate < replicates; o.replicate++) {
         koksma_gen *g = open_set(family, &o);
 
@@ -201,6 +254,8 @@ int main(int argc, char *argv[])
         write_set(g, &o, form);
         koksma_gen_close(g);
     }
+    free(given.bases);
+    free(given.vector);
     free(words);
     cli_finish(CLI_DONE);
 }

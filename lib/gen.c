@@ -15,7 +15,9 @@ enum {
     BASES = KOKSMA_TAKES_BASES,
     DIGITS = KOKSMA_TAKES_DIGITS,
     MATRIX = KOKSMA_TAKES_MATRIX,
-    SEED = KOKSMA_TAKES_SEED
+    SEED = KOKSMA_TAKES_SEED,
+    VECTOR = KOKSMA_TAKES_VECTOR,
+    ALPHA = KOKSMA_TAKES_ALPHA
 };
 
 const koksma_gen_family koksma_gen_families[] = {
@@ -23,8 +25,26 @@ const koksma_gen_family koksma_gen_families[] = {
      "-", PRIMES, START | BASES | DIGITS, &ki_gen_halton},
     {"hammersley", "i/n, then halton", "-", PRIMES + 1, BASES | DIGITS,
      &ki_gen_hammersley},
+    {"vandercorput", "the radical inverse in base 2, or in another", "-", 1,
+     START | BASES | DIGITS, &ki_gen_halton},
+    {"faure", "powers of Pascal's matrix in the least prime base >= dim", "-",
+     65521, START | DIGITS, &ki_gen_faure},
     {"sobol", "digital sequence in base 2, Joe and Kuo's direction numbers", "-",
      KI_SOBOL_DIMS, START | DIGITS | MATRIX, &ki_gen_sobol},
+    {"niederreiter", "digital sequence in base 2, irreducible polynomials", "-",
+     KI_NIEDERREITER_DIMS, START | DIGITS | MATRIX, &ki_gen_niederreiter},
+    {"richtmyer", "multiples of the square roots of primes, mod 1", "-", 1000000,
+     START, &ki_gen_richtmyer},
+    {"rsequence", "multiples of powers of a generalised golden ratio, mod 1", "-",
+     10000, START, &ki_gen_rsequence},
+    {"kronecker", "multiples of given numbers, mod 1", "vector of dim numbers",
+     SIZE_MAX, START | ALPHA, &ki_gen_kronecker},
+    {"lattice", "{i z/n} for a given vector z", "vector of dim whole numbers",
+     SIZE_MAX, VECTOR, &ki_gen_lattice},
+    {"korobov", "the lattice of 1, a, a^2, ... for a given a",
+     "vector of 1 whole number", SIZE_MAX, VECTOR, &ki_gen_korobov},
+    {"fibonacci", "the plane lattice of 1, F_(m-1)", "n = F_m", 2, 0,
+     &ki_gen_fibonacci},
     {"random", "independent and uniform", "-", SIZE_MAX, START | SEED,
      &ki_gen_random},
     {"grid", "{0,...,m-1}/m in each axis", "n = m^dim", SIZE_MAX, 0, &ki_gen_grid},
@@ -53,6 +73,8 @@ koksma_status koksma_gen_open(koksma_gen **out, const koksma_gen_family *family,
     g->opts = *opts;
     if (family->kernel->prepare != NULL) status = family->kernel->prepare(g, err);
     g->opts.bases = NULL;
+    g->opts.vector = NULL;
+    g->opts.alpha = NULL;
     if (status != KOKSMA_OK) {
         koksma_gen_close(g);
         return status;

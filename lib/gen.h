@@ -18,7 +18,9 @@ typedef enum koksma_takes {
     KOKSMA_TAKES_BASES = 2,  /* bases */
     KOKSMA_TAKES_DIGITS = 4, /* scrambling of digits, and nested scrambling */
     KOKSMA_TAKES_MATRIX = 8, /* scrambling by matrices */
-    KOKSMA_TAKES_SEED = 16   /* random even unscrambled: replicates differ */
+    KOKSMA_TAKES_SEED = 16,  /* random even unscrambled: replicates differ */
+    KOKSMA_TAKES_VECTOR = 32,
+    KOKSMA_TAKES_ALPHA = 64
 } koksma_takes;
 
 typedef struct koksma_gen_family {
@@ -54,8 +56,13 @@ typedef struct koksma_gen_opts {
     uint64_t n;     /* points in all: a grid's and Hammersley's depend on it */
     uint64_t start; /* index of the first point of a sequence */
     uint64_t leap;  /* from one index to the next; 0 means 1 */
-    const uint32_t *bases; /* pairwise coprime, >= 2: dim of them, for Hammersley
-                            * dim - 1; NULL: the first primes */
+    const uint32_t *bases;  /* pairwise coprime, >= 2: dim of them, for Hammersley
+                             * dim - 1; NULL: the first primes */
+    const uint64_t *vector; /* lattices: what generates them, dim numbers or, for
+                             * Korobov's, 1 */
+    size_t vector_size;
+    const double *alpha; /* Kronecker: dim multipliers in [0, 2^53] */
+    size_t alpha_size;
     koksma_scramble scramble;
     bool baker;         /* then fold: x becomes 1 - |2x - 1| [Hickernell 2002] */
     uint64_t seed;      /* fixes every bit, on every machine */
@@ -70,20 +77,33 @@ typedef struct koksma_gen koksma_gen;
  * largest double not above it, never 1 [Halton 1960].  Digits scrambled: each of
  * the digit places, infinitely many zeros in front of the index included, has a
  * permutation of its own, drawn uniformly [Owen, Pan 2023 on its variance]; the
- * result is within two ulps and below 1.  Hammersley: i/n, then Halton.  Sobol':
- * Gray-code order, the direction numbers of [Joe, Kuo 2008], 64 binary places;
- * scrambled, cut off to a multiple of 2^-53, as random coordinates are.  Grid:
- * {0..m-1}/m in each axis, n = m^dim, the last coordinate fastest; centred:
+ * result is within two ulps and below 1.  Van der Corput: Halton in one dimension.
+ * Hammersley: i/n, then Halton.  Faure: the least prime base b >= dim, matrices C^k
+ * for k = 0, ..., dim-1 and Pascal's C, natural order [Faure 1982], rounded and
+ * scrambled as Halton.  Sobol': Gray-code order, the direction numbers of [Joe, Kuo
+ * 2008], 64 binary places; scrambled, cut off to a multiple of 2^-53, as random
+ * coordinates are. Niederreiter: the same with the matrices of [Bratley, Fox,
+ * Niederreiter 1994].
+ *
+ * Kronecker sequences: i alpha_k mod 1, for an alpha that is cut off to 128 binary
+ * places and so to less than 2^-64 at any i, cut off to a multiple of 2^-53;
+ * Richtmyer: square roots of the first primes [Richtmyer 1951]; R-sequence: g, ...,
+ * g^dim with g^dim + g^(dim+1) = 1 [Roberts 2018].  Lattices: i z_k/n mod 1, the
+ * largest double not above it; Korobov: z = 1, a, a^2, ... [Korobov 1959];
+ * Fibonacci: n = F_m and z = 1, F_(m-1).
+ *
+ * Grid: {0..m-1}/m in each axis, n = m^dim, the last coordinate fastest; centred:
  * {1/2..m-1/2}/m.
  *
  * Folding makes of the 1 that it may come to the double below it.
  *
  * Returns: KOKSMA_OK; KOKSMA_EINVAL: dim out of the family's range, n = 0 or not
- *          m^dim, an index above 2^64 - 1, an option given to a family that does
- *          not take it, bases below 2 or with a common factor, a leap with a factor
- *          in common with a base; KOKSMA_ENOMEM
- * Cost:    permutations of digits take 4 sum_k b_k ceil(64/log2 b_k) bytes, digital
- *          sequences 0.5 kB a coordinate and 2 kB more when nested */
+ *          m^dim, not F_m, an index above 2^64 - 1, an option given to a family
+ * that does not take it, bases below 2 or with a common factor, a leap with a
+ * factor in common with a base, a vector of another length; KOKSMA_ENOMEM Cost:
+ * permutations of digits take 4 sum_k b_k ceil(64/log2 b_k) bytes, digital
+ *          sequences in base 2 0.7 kB a coordinate and 2 kB more when nested; a
+ *          nested digit a of a coordinate in another base takes some a steps */
 koksma_status koksma_gen_open(koksma_gen **out, const koksma_gen_family *family,
                               const koksma_gen_opts *opts, koksma_error *err);
 void koksma_gen_close(koksma_gen *g); /* g may be NULL */

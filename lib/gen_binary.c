@@ -66,16 +66,13 @@ static void scramble(binary *b, size_t k, koksma_scramble how, koksma_rng r)
 }
 
 koksma_status ki_binary_prepare(koksma_gen *g, ki_binary_directions *directions,
-                                koksma_error *err)
+                                void *state, koksma_error *err)
 {
     koksma_scramble how = g->opts.scramble;
     size_t dim = g->opts.dim;
     binary *b;
 
-    if (g->opts.leap % 2 == 0 && g->opts.leap > 0)
-        return ki_fail(err, KOKSMA_EINVAL, 0,
-                       "leap %ju and base 2 have a common factor",
-                       (uintmax_t)g->opts.leap);
+    if (ki_check_leap(g->opts.leap, 2, err) != KOKSMA_OK) return KOKSMA_EINVAL;
     b = calloc(1, sizeof *b + dim * sizeof b->axis[0]);
     if (b == NULL) return ki_fail_memory(err, "the direction numbers");
     g->state = b;
@@ -86,7 +83,7 @@ koksma_status ki_binary_prepare(koksma_gen *g, ki_binary_directions *directions,
         (b->owen = ki_alloc(dim, sizeof *b->owen)) == NULL)
         return ki_fail_memory(err, "the scrambling");
     for (size_t k = 0; k < dim; k++) {
-        directions(b->axis[k].v, k);
+        directions(b->axis[k].v, k, state);
         if (b->scrambled) scramble(b, k, how, ki_gen_stream(g, k));
         for (unsigned i = 0; i < RUN; i++)
             b->axis[k].low[i] = element(b->axis[k].v, i);

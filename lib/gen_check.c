@@ -54,6 +54,10 @@ koksma_status ki_gen_check(const koksma_gen_family *f, const koksma_gen_opts *o,
     status = check_indices(f, o, err);
     if (status == KOKSMA_OK && !(f->takes & KOKSMA_TAKES_BASES) && o->bases != NULL)
         return ki_fail(err, KOKSMA_EINVAL, 0, "%s has no bases", f->name);
+    if (status == KOKSMA_OK &&
+        ((!(f->takes & KOKSMA_TAKES_VECTOR) && o->vector != NULL) ||
+         (!(f->takes & KOKSMA_TAKES_ALPHA) && o->alpha != NULL)))
+        return ki_fail(err, KOKSMA_EINVAL, 0, "%s takes no such vector", f->name);
     if (status == KOKSMA_OK) status = check_scramble(f, o, err);
     return status;
 }

@@ -31,7 +31,9 @@ typedef struct ki_gen_kernel {
     void (*release)(void *state); /* may be NULL: free */
 } ki_gen_kernel;
 
-extern const ki_gen_kernel ki_gen_halton, ki_gen_hammersley, ki_gen_sobol,
+extern const ki_gen_kernel ki_gen_halton, ki_gen_hammersley, ki_gen_faure,
+    ki_gen_sobol, ki_gen_niederreiter, ki_gen_richtmyer, ki_gen_rsequence,
+    ki_gen_kronecker, ki_gen_lattice, ki_gen_korobov, ki_gen_fibonacci,
     ki_gen_random, ki_gen_grid, ki_gen_centred;
 
 /* What coordinate k draws from. */
@@ -55,33 +57,66 @@ koksma_status ki_gen_check(const koksma_gen_family *f, const koksma_gen_opts *o,
 /* The largest double not above r/p, 0 <= r < p < 2^127: always below 1. */
 double ki_ratio(ki_u128 r, ki_u128 p);
 
-/* One coordinate in one base: radical inverses, plain or with permuted digits. */
+/* A double holds every integer up to here, so that a division of two such
+ * integers rounds once. */
+#define KI_EXACT ((uint64_t)1 << 53)
+
+/* Digit places at most: of 64 bits in base 2. */
+enum { KI_DIGITS_MOST = 64 };
+
+/* One coordinate in one base: plain, or with its digits scrambled. */
 typedef struct ki_radical {
     uint32_t base;
-    uint32_t *permutation; /* of digit place j at j*base; NULL: plain */
+    koksma_scramble how;   /* NONE, DIGITS, OWEN; others are as NONE */
+    uint32_t *permutation; /* DIGITS: of digit place j at j*base */
+    koksma_rng nested;     /* OWEN */
 } ki_radical;
 
 /* Digit places that any index below 2^64 needs in base b. */
 unsigned ki_radical_digits(uint32_t base);
 
-/* Draw the permutations of r's base.  Returns 0, or -1 without memory. */
-int ki_radical_permute(ki_radical *r, koksma_rng rng);
+/* Draw the scrambling of r's base.  Returns 0, or -1 without memory. */
+int ki_radical_scramble(ki_radical *r, koksma_scramble how, koksma_rng rng);
+
+/* The number that has these digits behind the point, all that there are: plain, the
+ * largest double not above it, otherwise scrambled and within two ulps. */
+double ki_radical_value(const ki_radical *r, const uint32_t *digit,
+                        unsigned digits);
+
+/* (head + tail/tail_p)/p < 1, within two ulps and below 1. */
+double ki_radical_join(uint64_t head, uint64_t p, uint64_t tail, uint64_t tail_p);
+
+/* A leap with a factor in common with the base is refused. */
+koksma_status ki_check_leap(uint64_t leap, uint32_t base, koksma_error *err);
 
 /* Write the inverses of first, ..., first + count - 1 to x[0], x[stride], ... */
 void ki_radical_fill(const ki_radical *r, double *x, size_t stride, uint64_t first,
                      size_t count);
 
+/* The least prime not below `from`, by division; below 2^32 there has to be one. */
+uint32_t ki_next_prime(uint32_t from);
+
+uint64_t ki_gcd(uint64_t a, uint64_t b);
+
+/* The fraction of the square root of a prime, cut off to 128 binary places. */
+ki_u128 ki_root_fraction(uint32_t p);
+
+/* The same of g, ..., g^dim for the g in (1/2,1) with g^dim + g^(dim+1) = 1. */
+void ki_golden_powers(ki_u128 *alpha, size_t dim);
+
 /* ---- Digital sequences in base 2 -----------------------------------------------
  */
 
-enum { KI_BINARY_BITS = 64, KI_SOBOL_DIMS = 1111 };
+enum { KI_BINARY_BITS = 64, KI_SOBOL_DIMS = 1111, KI_NIEDERREITER_DIMS = 1377 };
 
-/* The direction numbers of coordinate k, counted from 0: v[j] is what bit j of the
- * Gray code of the index adds, the first binary place on top. */
-typedef void ki_binary_directions(uint64_t v[KI_BINARY_BITS], size_t k);
+/* The direction numbers of coordinate k, counted from 0 and asked for in turn: v[j]
+ * is what bit j of the Gray code of the index adds, the first binary place on top.
+ */
+typedef void ki_binary_directions(uint64_t v[KI_BINARY_BITS], size_t k,
+                                  void *state);
 
 koksma_status ki_binary_prepare(koksma_gen *g, ki_binary_directions *directions,
-                                koksma_error *err);
+                                void *state, koksma_error *err);
 void ki_binary_fill(const koksma_gen *g, double *x, uint64_t first, size_t count);
 void ki_binary_release(void *state);
 

@@ -18,11 +18,12 @@ _Static_assert(sizeof table / sizeof table[0] == KI_SOBOL_DIMS - 1,
 
 /* v_j = a_1 v_(j-1) ^ ... ^ a_(s-1) v_(j-s+1) ^ v_(j-s) ^ (v_(j-s) >> s).
  * Dimension 1 is van der Corput's sequence. */
-static void directions(uint64_t v[BITS], size_t k)
+static void directions(uint64_t v[BITS], size_t k, void *state)
 {
     const polynomial *p = &table[k > 0 ? k - 1 : 0];
     unsigned s = k > 0 ? p->degree : BITS;
 
+    (void)state;
     for (unsigned j = 0; j < BITS; j++) {
         if (j < s) {
             v[j] = (uint64_t)(k > 0 ? p->m[j] : 1) << (BITS - 1 - j);
@@ -36,7 +37,7 @@ static void directions(uint64_t v[BITS], size_t k)
 
 static koksma_status prepare(koksma_gen *g, koksma_error *err)
 {
-    return ki_binary_prepare(g, directions, err);
+    return ki_binary_prepare(g, directions, NULL, err);
 }
 
 const ki_gen_kernel ki_gen_sobol = {prepare, ki_binary_fill, ki_binary_release};

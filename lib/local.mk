@@ -7,7 +7,9 @@ noinst_LTLIBRARIES = %D%/libcore.la
   %D%/fit.c %D%/fit.h %D%/fit_kernels.h %D%/fit_grid.c %D%/fit_judge.c \
   %D%/fit_line.c %D%/fit_mixture.c \
   %D%/gen.c %D%/gen.h %D%/gen_kernels.h %D%/gen_binary.c %D%/gen_check.c \
-  %D%/gen_fold.c %D%/gen_fractions.c %D%/gen_halton.c %D%/gen_owen.c %D%/gen_plain.c \
+  %D%/gen_digits.c %D%/gen_faure.c %D%/gen_fixed.c %D%/gen_fold.c \
+  %D%/gen_fractions.c %D%/gen_halton.c %D%/gen_kronecker.c %D%/gen_lattice.c \
+  %D%/gen_niederreiter.c %D%/gen_owen.c %D%/gen_plain.c %D%/gen_primes.c \
   %D%/gen_radical.c %D%/gen_sobol.c \
   %D%/integrand.c %D%/integrand.h %D%/integrand_kernels.h \
   %D%/integrand_ball.c %D%/integrand_box.c %D%/integrand_fractal.c \

@@ -253,6 +253,32 @@ t scramble-word 2 "" \
     'koksma-points sobol --scramble nested'
 t scramble-none 2 "" "koksma-points: grid has no digits to scramble$try" \
     'koksma-points grid -n 4 --scramble owen'
+t faure 0 "0${tab}0${tab}0
+0.3333333333333333${tab}0.3333333333333333${tab}0.3333333333333333
+0.6666666666666666${tab}0.6666666666666666${tab}0.6666666666666666
+0.1111111111111111${tab}0.4444444444444444${tab}0.7777777777777777" "" \
+    'koksma-points faure -d 3 -n 3^7 -q | head -n 4'
+t fibonacci 0 "0${tab}0
+0.2${tab}0.6" "" 'koksma-points fibonacci -n 5 -q | head -n 2'
+t vector 0 "# koksma-points kronecker --vector 0.25,3.5 -n 3
+# koksma: points=kronecker scramble=none
+0${tab}0
+0.25${tab}0.5
+0.5${tab}0" "" 'koksma-points kronecker --vector 0.25,3.5 -n 3'
+t vandercorput 0 "0
+0.5
+0.25" "" 'koksma-points vandercorput -n 4 -q | head -n 3'
+t vector-missing 2 "" \
+    "koksma-points: korobov in dimension 2 takes a vector of 1, not of 0$try" \
+    'koksma-points korobov -n 7'
+t vector-long 2 "" \
+    "koksma-points: lattice in dimension 2 takes a vector of 2, not of 3$try" \
+    'koksma-points lattice -n 7 --vector 1,2,3'
+t vector-word 2 "" \
+    "koksma-points: --vector takes a whole number from 0 to 18446744073709551615, not \"1.5\"$try" \
+    'koksma-points lattice -n 7 --vector 1,1.5'
+t no-fibonacci 2 "" "koksma-points: 100 points: 89 and 144 are Fibonacci numbers$try" \
+    'koksma-points fibonacci -n 100'
 t too-far 2 "" "koksma-points: indices reach beyond 2^64 - 1$try" \
     'koksma-points halton --start 18446744073709551615 -n 2'
 t prefixes-fall 2 "" \

@@ -54,6 +54,22 @@ static const struct sample {
     {"sobol", {.dim = 9, .n = 700, .scramble = KOKSMA_SCRAMBLE_OWEN}},
     {"sobol", {.dim = 9, .n = 700, .scramble = KOKSMA_SCRAMBLE_SHIFT}},
     {"grid", {.dim = 3, .n = 729, .scramble = KOKSMA_SCRAMBLE_SHIFT}},
+    {"halton", {.dim = 5, .n = 700, .scramble = KOKSMA_SCRAMBLE_OWEN}},
+    {"vandercorput", {.dim = 1, .n = 700}},
+    {"faure", {.dim = 5, .n = 700}},
+    {"faure", {.dim = 6, .n = 700, .scramble = KOKSMA_SCRAMBLE_DIGITS}},
+    {"faure", {.dim = 6, .n = 700, .scramble = KOKSMA_SCRAMBLE_OWEN, .leap = 6}},
+    {"niederreiter", {.dim = 20, .n = 700}},
+    {"niederreiter", {.dim = 20, .n = 700, .scramble = KOKSMA_SCRAMBLE_OWEN}},
+    {"richtmyer", {.dim = 5, .n = 700}},
+    {"rsequence", {.dim = 5, .n = 700, .leap = 10}},
+    {"kronecker",
+     {.dim = 2, .n = 700, .alpha = (const double[]){0.1, 2.7}, .alpha_size = 2}},
+    {"lattice",
+     {.dim = 2, .n = 700, .vector = (const uint64_t[]){1, 701}, .vector_size = 2}},
+    {"korobov",
+     {.dim = 9, .n = 700, .vector = (const uint64_t[]){33}, .vector_size = 1}},
+    {"fibonacci", {.dim = 2, .n = 610, .baker = true}},
     {"random", {.dim = 3, .n = 700, .seed = 5}},
     {"grid", {.dim = 3, .n = 729}},
     {"centred", {.dim = 6, .n = 729}},
@@ -86,7 +102,7 @@ START_TEST(pieces)
         for (size_t i = 0; i < o.n * o.dim; i++)
             if (!(room[i] >= 0.0 && room[i] < 1.0)) ck_abort_msg("%a", room[i]);
         g = open_family(s->name, &o);
-        for (int i = 0; i < 200; i++) {
+        for (int i = 0; i < 40; i++) {
             uint64_t first = oracle_below(&rng, (size_t)o.n + 1);
             size_t count = oracle_below(&rng, (size_t)(o.n - first) + 1);
 
@@ -266,6 +282,42 @@ static const struct refusal {
     {"hammersley",
      {.dim = 4, .n = 1, .bases = shared},
      "bases 4 and 6 have a common factor"},
+    {"faure",
+     {.dim = 6, .n = 1, .leap = 14},
+     "leap 14 and base 7 have a common factor"},
+    {"faure", {.dim = 65522, .n = 1}, "dimension 65522: faure has 1 to 65521"},
+    {"niederreiter",
+     {.dim = 1378, .n = 1},
+     "dimension 1378: niederreiter has 1 to 1377"},
+    {"vandercorput", {.dim = 2, .n = 1}, NULL},
+    {"lattice",
+     {.dim = 2, .n = 7},
+     "lattice in dimension 2 takes a vector of 2, not of 0"},
+    {"korobov",
+     {.dim = 2, .n = 7, .vector = (const uint64_t[]){1, 2}, .vector_size = 2},
+     "korobov in dimension 2 takes a vector of 1, not of 2"},
+    {"kronecker",
+     {.dim = 3, .n = 7, .alpha = (const double[]){1, 2}, .alpha_size = 2},
+     "kronecker in dimension 3 takes a vector of 3, not of 2"},
+    {"kronecker",
+     {.dim = 1, .n = 7, .alpha = (const double[]){-0.5}, .alpha_size = 1},
+     "multiplier 1 is -0.5, not in [0, 2^53]"},
+    {"kronecker",
+     {.dim = 1, .n = 7, .alpha = (const double[]){(double)NAN}, .alpha_size = 1},
+     NULL},
+    {"sobol",
+     {.dim = 1, .n = 7, .vector = (const uint64_t[]){1}, .vector_size = 1},
+     "sobol takes no such vector"},
+    {"lattice",
+     {.dim = 1, .n = 7, .alpha = (const double[]){1}, .alpha_size = 1},
+     "lattice takes no such vector"},
+    {"fibonacci",
+     {.dim = 2, .n = 100},
+     "100 points: 89 and 144 are Fibonacci numbers"},
+    {"fibonacci",
+     {.dim = 2, .n = UINT64_MAX},
+     "18446744073709551615 points: no Fibonacci number"},
+    {"fibonacci", {.dim = 1, .n = 5}, "dimension 1: Fibonacci lattices are plane"},
     {"grid", {.dim = 2, .n = 5}, "5 points make no grid in 2 dimensions: no m^2"},
     {"centred",
      {.dim = 3, .n = 9},
@@ -404,7 +456,7 @@ START_TEST(table_of_families)
         ck_assert_uint_ge(f->max_dim, 1);
         count++;
     }
-    ck_assert_uint_eq(count, 6);
+    ck_assert_uint_eq(count, 15);
     ck_assert_ptr_null(koksma_gen_find(""));
     ck_assert_ptr_null(koksma_gen_find("Halton"));
     ck_assert_ptr_null(koksma_gen_find("halto"));

@@ -63,6 +63,37 @@ START_TEST(documented_values)
 }
 END_TEST
 
+/* Any prime to 7919 and any index; tagged big, a million of them. */
+START_TEST(random_pairs)
+{
+    static uint32_t prime[1000];
+    size_t primes = 0, pairs = _i == 0 ? 5000 : 1000000;
+    oracle_rng rng = oracle_rng_start(oracle_seed(), (uint64_t)_i + 5);
+
+    for (uint32_t p = 2; primes < 1000; p++) {
+        bool divided = false;
+
+        for (size_t i = 0; i < primes && prime[i] * prime[i] <= p && !divided; i++)
+            divided = p % prime[i] == 0;
+        if (!divided) prime[primes++] = p;
+    }
+    for (size_t i = 0; i < pairs; i++) {
+        koksma_gen_opts o = {
+            .dim = 1, .n = 1, .bases = &prime[oracle_below(&rng, 1000)]};
+        double v;
+
+        o.start = (uint64_t)oracle_below(&rng, (size_t)1 << 32) << 32 |
+                  oracle_below(&rng, (size_t)1 << 32);
+        o.start >>= oracle_below(&rng, 64);
+        if (i % 100 == 0) o.start = UINT64_MAX - i;
+        fill_all(&v, "halton", o);
+        if (v != inverse(o.start, o.bases[0]))
+            ck_abort_msg("base %ju, index %ju: %a", (uintmax_t)o.bases[0],
+                         (uintmax_t)o.start, v);
+    }
+}
+END_TEST
+
 START_TEST(first_primes)
 {
     koksma_gen_opts o = {.dim = 1000, .n = 2};
@@ -111,7 +142,7 @@ END_TEST
 START_TEST(permuted_digits)
 {
     static const uint32_t tried[] = {2, 3, 4, 5, 29, 541, 65537};
-    ki_radical r = {tried[_i], NULL};
+    ki_radical r = {.base = tried[_i]};
     unsigned digits = ki_radical_digits(r.base);
     bool *seen = calloc(r.base, sizeof *seen);
     ki_u128 p = 1;
@@ -119,7 +150,9 @@ START_TEST(permuted_digits)
     for (unsigned j = 0; j < digits; j++)
         p *= r.base;
     ck_assert(p > UINT64_MAX && p / r.base <= UINT64_MAX);
-    ck_assert_int_eq(ki_radical_permute(&r, koksma_rng_seed(oracle_seed(), 7)), 0);
+    ck_assert_int_eq(ki_radical_scramble(&r, KOKSMA_SCRAMBLE_DIGITS,
+                                         koksma_rng_seed(oracle_seed(), 7)),
+                     0);
     for (unsigned j = 0; j < digits; j++) {
         memset(seen, 0, r.base * sizeof *seen);
         for (uint32_t d = 0; d < r.base; d++)
@@ -165,7 +198,8 @@ START_TEST(scrambled_intervals)
                                  .n = 1,
                                  .seed = 1,
                                  .replicate = round,
-                                 .scramble = KOKSMA_SCRAMBLE_DIGITS};
+                                 .scramble = round % 2 == 0 ? KOKSMA_SCRAMBLE_DIGITS
+                                                            : KOKSMA_SCRAMBLE_OWEN};
 
             for (unsigned m = 1; m <= places[k]; m++) {
                 o.n *= bases[k];
@@ -194,7 +228,7 @@ START_TEST(permutations_are_uniform)
     enum { DRAWS = 7200 };
 
     for (uint64_t i = 0; i < DRAWS; i++) {
-        koksma_gen_opts o = {.dim = 2, .n = 3, .scramble = KOKSMA_SCRAMBLE_DIGITS};
+        koksma_gen_opts o = {.dim = 2, .n = 3, .scramble = (koksma_scramble)_i};
         const double *x = room;
 
         *(i % 2 == 0 ? &o.seed : &o.replicate) = i / 2;
@@ -209,6 +243,52 @@ START_TEST(permutations_are_uniform)
     for (size_t i = 0; i < 36; i++)
         chi += pow((double)cell[i] - DRAWS / 36.0, 2.0) / (DRAWS / 36.0);
     ck_assert_double_lt(chi, most);
+}
+END_TEST
+
+/* Indices that agree in their lowest d digits and no more have images that agree in
+ * their first d and no more; a digit goes through all of its images where those
+ * before it stay the same, and the images differ where those before it do. */
+START_TEST(nested_digits)
+{
+    static const uint32_t tried[] = {2, 3, 5, 29, 541};
+    uint32_t b = tried[_i];
+    koksma_gen_opts o = {.dim = 1, .n = b < 100 ? 300 : 3 * b, .bases = &b};
+    size_t same = 0, orders = 0, draws = 0;
+
+    o.scramble = KOKSMA_SCRAMBLE_OWEN;
+    o.start = (uint64_t)b * b * b * b * 11;
+    fill_all(room, "halton", o);
+    for (size_t i = 0; i < 300; i++)
+        for (size_t j = 0; j < i; j++) {
+            double p = 1.0;
+
+            for (size_t q = i - j; q > 0 && q % b == 0; q /= b)
+                p *= b;
+            if (floor(room[i] * p) != floor(room[j] * p) ||
+                floor(room[i] * p * b) == floor(room[j] * p * b))
+                ck_abort_msg("points %zu and %zu", i, j);
+        }
+    /* The place behind the first: whether two digits change their order, by the
+     * first digit.  With one permutation for all it would be the same. */
+    for (o.seed = 1; o.seed <= 40; o.seed++) {
+        double p = b;
+
+        fill_all(room, "halton", o);
+        for (uint32_t a = 0; a + 1 < b && a < 3; a++, draws++) {
+            double one = fmod(room[a] * p, 1.0) - fmod(room[a + b] * p, 1.0);
+            double two =
+                fmod(room[a + 1] * p, 1.0) - fmod(room[a + 1 + b] * p, 1.0);
+
+            orders += (one < 0.0) == (two < 0.0);
+        }
+        for (size_t i = 0; i + 1 < o.n; i++)
+            same += room[i] == room[i + 1];
+    }
+    ck_assert_uint_eq(same, 0);
+    /* Five spreads around a half; for b = 2 there is one a a seed. */
+    ck_assert(fabs((double)orders - 0.5 * (double)draws) <
+              2.5 * sqrt((double)draws));
 }
 END_TEST
 
@@ -295,29 +375,25 @@ START_TEST(sobol_as_published)
 }
 END_TEST
 
-/* The first 2^10 points of every coordinate are the j/2^10, each once; and any 2^m
+/* The first 2^6 points of every coordinate are the j/2^6, each once; and any 2^m
  * points from a multiple of 2^m on are a net in dimensions 1 and 2. */
 START_TEST(sobol_nets)
 {
     static bool taken[1024];
 
-    koksma_gen_opts o = {.dim = 1111, .n = 1024};
-    koksma_gen *g = open_family("sobol", &o);
-    double *all = malloc(o.dim * 1024 * sizeof *all);
+    koksma_gen_opts o = {.dim = 1111, .n = 64};
 
-    ck_assert_ptr_nonnull(all);
-    ck_assert_int_eq(koksma_gen_fill(g, all, 0, 1024, NULL), KOKSMA_OK);
-    koksma_gen_close(g);
+    fill_all(room, "sobol", o);
     for (size_t k = 0; k < o.dim; k++) {
         memset(taken, 0, sizeof taken);
-        for (size_t i = 0; i < 1024; i++) {
-            double j = all[i * o.dim + k] * 1024.0;
+        for (size_t i = 0; i < o.n; i++) {
+            double j = room[i * o.dim + k] * 64.0;
 
-            ck_assert(j == floor(j) && !taken[(size_t)j]);
+            if (j != floor(j) || taken[(size_t)j])
+                ck_abort_msg("dimension %zu", k + 1);
             taken[(size_t)j] = true;
         }
     }
-    free(all);
     for (unsigned m = 0; m <= 10; m++)
         for (uint64_t block = 0; block < 4; block++) {
             uint64_t n = (uint64_t)1 << m, at = block < 3 ? block : 12345;
@@ -344,18 +420,27 @@ int main(void)
     tcase_add_loop_test(tc, radical_inverses, 0, sizeof ranges / sizeof *ranges);
     tcase_add_test(tc, documented_values);
     tcase_add_test(tc, first_primes);
+    tcase_add_loop_test(tc, random_pairs, 0, 1);
     tcase_add_test(tc, ratios);
 
     tc = tcase_create("permuted digits");
     suite_add_tcase(suite, tc);
     tcase_add_loop_test(tc, permuted_digits, 0, 7);
     tcase_add_test(tc, scrambled_intervals);
-    tcase_add_test(tc, permutations_are_uniform);
+    tcase_add_loop_test(tc, permutations_are_uniform, KOKSMA_SCRAMBLE_DIGITS,
+                        KOKSMA_SCRAMBLE_OWEN + 1);
+    tcase_add_loop_test(tc, nested_digits, 0, 5);
 
     tc = tcase_create("sobol");
     suite_add_tcase(suite, tc);
     tcase_add_test(tc, sobol_by_recurrence);
     tcase_add_test(tc, sobol_as_published);
     tcase_add_test(tc, sobol_nets);
+
+    tc = tcase_create("a million pairs");
+    suite_add_tcase(suite, tc);
+    tcase_set_tags(tc, "big");
+    tcase_set_timeout(tc, 120);
+    tcase_add_loop_test(tc, random_pairs, 1, 2);
     return oracle_run(suite);
 }
