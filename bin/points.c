@@ -11,6 +11,8 @@ enum {
     LEAP,
     BASES,
     VECTOR,
+    RADIUS,
+    TORUS,
     SCRAMBLE,
     BAKER,
     REPLICATES,
@@ -28,6 +30,9 @@ static const cli_option options[] = {
     {BASES, "bases", "B,B,...", "coprime bases instead of the first primes"},
     {VECTOR, "vector", "Z,Z,...",
      "what a lattice or Kronecker sequence is made of"},
+    {RADIUS, "radius", "R",
+     "the least distance of poisson (default: the most found)"},
+    {TORUS, "torus", NULL, "distances of poisson go across the faces"},
     {SCRAMBLE, "scramble", "none|digits|owen|matrix|shift",
      "permute the digits at random, nested or not, or shift (default none)"},
     {BAKER, "baker", NULL, "fold every coordinate in the middle"},
@@ -221,6 +226,8 @@ int main(int argc, char *argv[])
         case 's': o.seed = cli_count("-s", optarg, 0, UINT64_MAX); break;
         case START: o.start = cli_count("--start", optarg, 0, UINT64_MAX); break;
         case LEAP: o.leap = cli_count("--leap", optarg, 1, UINT64_MAX); break;
+        case RADIUS: o.radius = cli_real("--radius", optarg, 1e-9, 1.0); break;
+        case TORUS: o.torus = true; break;
         case BAKER: o.baker = true; break;
         case BASES: given.bases = copy_of(optarg); break;
         case VECTOR: given.vector = copy_of(optarg); break;

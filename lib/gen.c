@@ -17,7 +17,8 @@ enum {
     MATRIX = KOKSMA_TAKES_MATRIX,
     SEED = KOKSMA_TAKES_SEED,
     VECTOR = KOKSMA_TAKES_VECTOR,
-    ALPHA = KOKSMA_TAKES_ALPHA
+    ALPHA = KOKSMA_TAKES_ALPHA,
+    RADIUS = KOKSMA_TAKES_RADIUS
 };
 
 const koksma_gen_family koksma_gen_families[] = {
@@ -45,11 +46,21 @@ const koksma_gen_family koksma_gen_families[] = {
      "vector of 1 whole number", SIZE_MAX, VECTOR, &ki_gen_korobov},
     {"fibonacci", "the plane lattice of 1, F_(m-1)", "n = F_m", 2, 0,
      &ki_gen_fibonacci},
+    {"zaremba", "hammersley with every other digit turned round", "n = 2^m", 2, 0,
+     &ki_gen_zaremba},
     {"random", "independent and uniform", "-", SIZE_MAX, START | SEED,
      &ki_gen_random},
     {"grid", "{0,...,m-1}/m in each axis", "n = m^dim", SIZE_MAX, 0, &ki_gen_grid},
     {"centred", "{1/2,...,m-1/2}/m in each axis", "n = m^dim", SIZE_MAX, 0,
      &ki_gen_centred},
+    {"jittered", "a random point in each cell of a grid", "n = m^dim", SIZE_MAX,
+     SEED, &ki_gen_jittered},
+    {"latin", "a random point in each of n strata of each axis (N-rooks)", "-",
+     SIZE_MAX, SEED, &ki_gen_latin},
+    {"multijittered", "jittered and latin", "n = m^dim", SIZE_MAX, SEED,
+     &ki_gen_multijittered},
+    {"poisson", "random points that keep a distance", "-", SIZE_MAX, SEED | RADIUS,
+     &ki_gen_poisson},
     {NULL, NULL, NULL, 0, 0, NULL},
 };
 

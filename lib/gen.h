@@ -20,7 +20,8 @@ typedef enum koksma_takes {
     KOKSMA_TAKES_MATRIX = 8, /* scrambling by matrices */
     KOKSMA_TAKES_SEED = 16,  /* random even unscrambled: replicates differ */
     KOKSMA_TAKES_VECTOR = 32,
-    KOKSMA_TAKES_ALPHA = 64
+    KOKSMA_TAKES_ALPHA = 64,
+    KOKSMA_TAKES_RADIUS = 128 /* radius and torus */
 } koksma_takes;
 
 typedef struct koksma_gen_family {
@@ -63,6 +64,8 @@ typedef struct koksma_gen_opts {
     size_t vector_size;
     const double *alpha; /* Kronecker: dim multipliers in [0, 2^53] */
     size_t alpha_size;
+    double radius; /* Poisson: in (0,1], or 0 for as large as found */
+    bool torus;    /* Poisson: distances go across the faces */
     koksma_scramble scramble;
     bool baker;         /* then fold: x becomes 1 - |2x - 1| [Hickernell 2002] */
     uint64_t seed;      /* fixes every bit, on every machine */
@@ -93,17 +96,30 @@ typedef struct koksma_gen koksma_gen;
  * Fibonacci: n = F_m and z = 1, F_(m-1).
  *
  * Grid: {0..m-1}/m in each axis, n = m^dim, the last coordinate fastest; centred:
- * {1/2..m-1/2}/m.
+ * {1/2..m-1/2}/m.  Zaremba: i/n and Hammersley's second coordinate in base 2 with
+ * places 2, 4, ... turned round, n = 2^m [Halton, Zaremba 1969].
+ *
+ * Jittered: uniform in cell i of that grid [Cook 1986].  Latin: each of the n
+ * strata of each axis has one point, uniform in it, in an order drawn uniformly for
+ * each axis [McKay, Beckman, Conover 1979].  Multi-jittered: both, every choice for
+ * an axis as likely as any other [Chiu, Shirley, Wang 1994].  In all three no
+ * rounding takes a point out of its cell or stratum.  Poisson: random darts of
+ * which those are kept that are not nearer than a radius to one before; without a
+ * given radius, for one that shrinks by 1/256 every n darts, from where n balls of
+ * half of it are as dense as darts can get [McCool, Fiume 1992; Torquato, Uche,
+ * Stillinger 2006].
  *
  * Folding makes of the 1 that it may come to the double below it.
  *
  * Returns: KOKSMA_OK; KOKSMA_EINVAL: dim out of the family's range, n = 0 or not
- *          m^dim, not F_m, an index above 2^64 - 1, an option given to a family
- * that does not take it, bases below 2 or with a common factor, a leap with a
- * factor in common with a base, a vector of another length; KOKSMA_ENOMEM Cost:
- * permutations of digits take 4 sum_k b_k ceil(64/log2 b_k) bytes, digital
- *          sequences in base 2 0.7 kB a coordinate and 2 kB more when nested; a
- *          nested digit a of a coordinate in another base takes some a steps */
+ *          m^dim, 2^m, F_m, too large, fewer found than n at a radius, an index
+ * above 2^64 - 1, an option given to a family that does not take it, bases below 2
+ * or with a common factor, a leap with a factor in common with a base, a vector of
+ * another length; KOKSMA_ENOMEM Cost: permutations of digits take 4 sum_k b_k
+ * ceil(64/log2 b_k) bytes, digital sequences in base 2 0.7 kB a coordinate and 2 kB
+ * more when nested; a nested digit a of a coordinate in another base takes some a
+ * steps; latin and multi-jittered take 4 dim n bytes, Poisson 8 (dim + 1) n, and
+ * some 30 n darts */
 koksma_status koksma_gen_open(koksma_gen **out, const koksma_gen_family *family,
                               const koksma_gen_opts *opts, koksma_error *err);
 void koksma_gen_close(koksma_gen *g); /* g may be NULL */

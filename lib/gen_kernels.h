@@ -34,7 +34,8 @@ typedef struct ki_gen_kernel {
 extern const ki_gen_kernel ki_gen_halton, ki_gen_hammersley, ki_gen_faure,
     ki_gen_sobol, ki_gen_niederreiter, ki_gen_richtmyer, ki_gen_rsequence,
     ki_gen_kronecker, ki_gen_lattice, ki_gen_korobov, ki_gen_fibonacci,
-    ki_gen_random, ki_gen_grid, ki_gen_centred;
+    ki_gen_zaremba, ki_gen_random, ki_gen_grid, ki_gen_centred, ki_gen_jittered,
+    ki_gen_latin, ki_gen_multijittered, ki_gen_poisson;
 
 /* What coordinate k draws from. */
 koksma_rng ki_gen_stream(const koksma_gen *g, uint64_t k);
@@ -53,6 +54,10 @@ void ki_gen_fold(double *x, size_t count);
 /* The options against what the family takes. */
 koksma_status ki_gen_check(const koksma_gen_family *f, const koksma_gen_opts *o,
                            koksma_error *err);
+
+/* The m with m^dim = n, or 0; and a refusal where it is 0. */
+uint64_t ki_grid_side(const koksma_gen *g);
+koksma_status ki_grid_check(koksma_gen *g, koksma_error *err);
 
 /* The largest double not above r/p, 0 <= r < p < 2^127: always below 1. */
 double ki_ratio(ki_u128 r, ki_u128 p);

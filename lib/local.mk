@@ -9,8 +9,9 @@ noinst_LTLIBRARIES = %D%/libcore.la
   %D%/gen.c %D%/gen.h %D%/gen_kernels.h %D%/gen_binary.c %D%/gen_check.c \
   %D%/gen_digits.c %D%/gen_faure.c %D%/gen_fixed.c %D%/gen_fold.c \
   %D%/gen_fractions.c %D%/gen_halton.c %D%/gen_kronecker.c %D%/gen_lattice.c \
-  %D%/gen_niederreiter.c %D%/gen_owen.c %D%/gen_plain.c %D%/gen_primes.c \
-  %D%/gen_radical.c %D%/gen_sobol.c \
+  %D%/gen_niederreiter.c %D%/gen_owen.c %D%/gen_plain.c %D%/gen_poisson.c \
+  %D%/gen_primes.c %D%/gen_radical.c %D%/gen_sobol.c %D%/gen_strata.c \
+  %D%/gen_zaremba.c \
   %D%/integrand.c %D%/integrand.h %D%/integrand_kernels.h \
   %D%/integrand_ball.c %D%/integrand_box.c %D%/integrand_fractal.c \
   %D%/integrand_koch.c %D%/integrand_product.c %D%/integrand_spline.c \

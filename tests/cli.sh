@@ -259,7 +259,7 @@ t faure 0 "0${tab}0${tab}0
 0.1111111111111111${tab}0.4444444444444444${tab}0.7777777777777777" "" \
     'koksma-points faure -d 3 -n 3^7 -q | head -n 4'
 t fibonacci 0 "0${tab}0
-0.2${tab}0.6" "" 'koksma-points fibonacci -n 5 -q | head -n 2'
+0.19999999999999998${tab}0.6" "" 'koksma-points fibonacci -n 5 -q | head -n 2'
 t vector 0 "# koksma-points kronecker --vector 0.25,3.5 -n 3
 # koksma: points=kronecker scramble=none
 0${tab}0
@@ -279,6 +279,19 @@ t vector-word 2 "" \
     'koksma-points lattice -n 7 --vector 1,1.5'
 t no-fibonacci 2 "" "koksma-points: 100 points: 89 and 144 are Fibonacci numbers$try" \
     'koksma-points fibonacci -n 100'
+t zaremba 0 "0${tab}0.25
+0.25${tab}0.75
+0.5${tab}0
+0.75${tab}0.5" "" 'koksma-points zaremba -n 4 -q'
+t disks-too-many 2 "" \
+    "koksma-points: only 1 points found that are 1 apart, not 2$try" \
+    'koksma-points poisson -n 2 --radius 1 --torus'
+t radius 2 "" "koksma-points: halton keeps no radius$try" \
+    'koksma-points halton --radius 0.1'
+t latin 0 "0
+1
+2
+3" "" 'koksma-points latin -d 1 -n 4 -q | awk "{ print int(\$1 * 4) }" | sort'
 t too-far 2 "" "koksma-points: indices reach beyond 2^64 - 1$try" \
     'koksma-points halton --start 18446744073709551615 -n 2'
 t prefixes-fall 2 "" \

@@ -30,7 +30,7 @@ unit_tests = \
   %D%/test_curve %D%/test_extra %D%/test_facts %D%/test_fit %D%/test_fit_coverage \
   %D%/test_fit_judge %D%/test_fit_mixture %D%/test_fit_rules \
   %D%/test_fractals %D%/test_gen %D%/test_gen_digits %D%/test_gen_scramble \
-  %D%/test_gen_lattice %D%/test_gen_nets \
+  %D%/test_gen_lattice %D%/test_gen_nets %D%/test_gen_patterns \
   %D%/test_integrand %D%/test_io %D%/test_io_npy %D%/test_io_npy_bad \
   %D%/test_io_number %D%/test_io_reader %D%/test_io_table %D%/test_io_write \
   %D%/test_known %D%/test_l2 %D%/test_num %D%/test_part %D%/test_points \

@@ -152,6 +152,21 @@ static koksma_status kronecker_job(koksma_error *err)
     return open_by("kronecker", KOKSMA_SCRAMBLE_NONE, err);
 }
 
+static koksma_status latin_job(koksma_error *err)
+{
+    return open_by("latin", KOKSMA_SCRAMBLE_NONE, err);
+}
+
+static koksma_status multijittered_job(koksma_error *err)
+{
+    return open_by("multijittered", KOKSMA_SCRAMBLE_NONE, err);
+}
+
+static koksma_status poisson_job(koksma_error *err)
+{
+    return open_by("poisson", KOKSMA_SCRAMBLE_NONE, err);
+}
+
 static koksma_status read_job(const char *text, size_t size, koksma_error *err)
 {
     char copy[512];
@@ -246,6 +261,9 @@ START_TEST(every_allocation_may_fail)
     ck_assert_int_ge(exhaust(sobol_job), 3);
     ck_assert_int_ge(exhaust(faure_job), 4);
     ck_assert_int_ge(exhaust(kronecker_job), 2);
+    ck_assert_int_ge(exhaust(latin_job), 3);
+    ck_assert_int_ge(exhaust(multijittered_job), 4);
+    ck_assert_int_ge(exhaust(poisson_job), 5);
     ck_assert_int_ge(exhaust(text_job), 4);
     ck_assert_int_ge(exhaust(npy_job), 5);
     ck_assert_int_ge(exhaust(table_job), 4);

@@ -70,6 +70,11 @@ static const struct sample {
     {"korobov",
      {.dim = 9, .n = 700, .vector = (const uint64_t[]){33}, .vector_size = 1}},
     {"fibonacci", {.dim = 2, .n = 610, .baker = true}},
+    {"zaremba", {.dim = 2, .n = 512}},
+    {"jittered", {.dim = 3, .n = 729}},
+    {"latin", {.dim = 3, .n = 700}},
+    {"multijittered", {.dim = 3, .n = 729}},
+    {"poisson", {.dim = 2, .n = 200, .torus = true}},
     {"random", {.dim = 3, .n = 700, .seed = 5}},
     {"grid", {.dim = 3, .n = 729}},
     {"centred", {.dim = 6, .n = 729}},
@@ -311,6 +316,31 @@ static const struct refusal {
     {"lattice",
      {.dim = 1, .n = 7, .alpha = (const double[]){1}, .alpha_size = 1},
      "lattice takes no such vector"},
+    {"zaremba", {.dim = 2, .n = 48}, "48 points are no power of 2"},
+    {"zaremba", {.dim = 1, .n = 8}, "dimension 1: zaremba is plane"},
+    {"jittered",
+     {.dim = 3, .n = 9},
+     "9 points make no grid in 3 dimensions: no m^3"},
+    {"multijittered",
+     {.dim = 2, .n = 8},
+     "8 points make no grid in 2 dimensions: no m^2"},
+    {"jittered",
+     {.dim = 1, .n = ((uint64_t)1 << 53) + 1},
+     "9007199254740993 strata: jittered has 2^53 at most"},
+    {"latin",
+     {.dim = 1, .n = (uint64_t)1 << 32},
+     "4294967296 points: latin has 2^32 - 1 at most"},
+    {"poisson",
+     {.dim = 1, .n = (uint64_t)1 << 32},
+     "4294967296 points: poisson has 2^32 - 1 at most"},
+    {"poisson", {.dim = 2, .n = 7, .radius = -0.5}, "radius -0.5: not in [0,1]"},
+    {"poisson", {.dim = 2, .n = 7, .radius = (double)NAN}, NULL},
+    {"poisson", {.dim = 1, .n = 9, .radius = 0.5}, NULL},
+    {"sobol", {.dim = 2, .n = 8, .radius = 0.1}, "sobol keeps no radius"},
+    {"random", {.dim = 2, .n = 8, .torus = true}, "random keeps no radius"},
+    {"latin",
+     {.dim = 1, .n = 8, .scramble = KOKSMA_SCRAMBLE_OWEN},
+     "latin has no digits to scramble"},
     {"fibonacci",
      {.dim = 2, .n = 100},
      "100 points: 89 and 144 are Fibonacci numbers"},
@@ -456,7 +486,7 @@ START_TEST(table_of_families)
         ck_assert_uint_ge(f->max_dim, 1);
         count++;
     }
-    ck_assert_uint_eq(count, 15);
+    ck_assert_uint_eq(count, 20);
     ck_assert_ptr_null(koksma_gen_find(""));
     ck_assert_ptr_null(koksma_gen_find("Halton"));
     ck_assert_ptr_null(koksma_gen_find("halto"));
