@@ -203,44 +203,85 @@ static const struct how {
     {"grid", KOKSMA_SCRAMBLE_SHIFT, 0},
 };
 
-/* A point by itself is uniform in the cube over the seeds: in 64 intervals of each
- * coordinate, and in the 100 squares of each pair of coordinates; also its places
- * 20 to 26. */
+/* The first of the looks at DRAWS points of three coordinates that finds them not
+ * uniform: in 64 intervals of each coordinate, in 100 squares of each pair, in
+ * places 20 to 26; or NULL. */
+enum { DRAWS = 3200 };
+
+static const char *not_uniform(const double *x)
+{
+    for (size_t k = 0; k < 3; k++) {
+        size_t one[64] = {0}, two[100] = {0}, deep[64] = {0};
+
+        for (size_t i = 0; i < DRAWS; i++) {
+            double a = x[3 * i + k], b = x[3 * i + (k + 1) % 3];
+
+            one[(size_t)(a * 64.0)]++;
+            two[(size_t)(a * 10.0) * 10 + (size_t)(b * 10.0)]++;
+            deep[(size_t)ldexp(a, 26) % 64]++;
+        }
+        if (!(chi_square(one, 64, DRAWS) < most(64))) return "intervals";
+        if (!(chi_square(two, 100, DRAWS) < most(100))) return "squares";
+        if (!(chi_square(deep, 64, DRAWS) < most(64))) return "places";
+    }
+    return NULL;
+}
+
+/* A point by itself is uniform in the cube over the seeds. */
 START_TEST(single_points_are_uniform)
 {
     const struct how *how = &hows[_i];
-    enum { DRAWS = 3200 };
-    size_t one[3][64] = {0}, two[3][100] = {0}, deep[3][64] = {0};
+    const char *found;
 
     for (uint64_t seed = 0; seed < DRAWS; seed++) {
         koksma_gen_opts o = {
             .dim = 3, .n = 1, .start = how->start, .scramble = how->scramble};
 
         *(seed % 2 == 0 ? &o.seed : &o.replicate) = 1 + seed / 2;
-        fill_all(room, how->name, o);
-        for (size_t k = 0; k < 3; k++) {
-            double a = room[k], b = room[(k + 1) % 3];
-
-            one[k][(size_t)(a * 64.0)]++;
-            two[k][(size_t)(a * 10.0) * 10 + (size_t)(b * 10.0)]++;
-            deep[k][(size_t)(ldexp(a, 26)) % 64]++;
-        }
+        fill_all(room + 3 * seed, how->name, o);
     }
-    for (size_t k = 0; k < 3; k++) {
-        ck_assert_double_lt(chi_square(one[k], 64, DRAWS), most(64));
-        ck_assert_double_lt(chi_square(two[k], 100, DRAWS), most(100));
-        ck_assert_double_lt(chi_square(deep[k], 64, DRAWS), most(64));
+    found = not_uniform(room);
+    ck_assert_msg(found == NULL, "%s, scrambling %d: not uniform in %s", how->name,
+                  (int)how->scramble, found);
+}
+END_TEST
+
+/* What the looks would find of it: a digit that is not permuted, one draw for two
+ * coordinates, permutations of the first places alone, and a 0 and a 1 that change
+ * places a little too rarely. */
+START_TEST(defects_are_found)
+{
+    static const char *const by[] = {NULL, "intervals", "squares", "places",
+                                     "intervals"};
+    double *bad = room;
+
+    for (int defect = 0; defect < 5; defect++) {
+        koksma_gen_opts o = {.dim = 3, .n = DRAWS, .seed = 8};
+        const char *found;
+
+        fill_all(bad, "random", o);
+        for (size_t i = 0; i < DRAWS; i++) {
+            double *x = bad + 3 * i;
+
+            if (defect == 1) x[0] /= 2.0;
+            if (defect == 2) x[1] = x[0];
+            if (defect == 3) x[0] = ldexp(floor(ldexp(x[0], 22)), -22);
+            if (defect == 4 && x[0] >= 0.5 && i % 4 == 0) x[0] -= 0.5;
+        }
+        found = not_uniform(bad);
+        ck_assert_msg(found == by[defect] || (found != NULL && by[defect] != NULL &&
+                                              strcmp(found, by[defect]) == 0),
+                      "defect %d found by %s", defect,
+                      found != NULL ? found : "none");
     }
 }
 END_TEST
 
 /* Where Sobol's points 0 and 1 go, places 2 and 3 of each: together with a digital
- * shift, independently when nested, and so that the second follows from the first
- * in two ways with a matrix. */
+ * shift, and independently of each other with a matrix and when nested. */
 START_TEST(pairs_of_points)
 {
     static const size_t reached[] = {4, 16, 16};
-    enum { DRAWS = 4000 };
 
     for (size_t how = 0; how < 3; how++) {
         size_t cell[16] = {0}, seen = 0;
@@ -276,6 +317,7 @@ int main(void)
     suite_add_tcase(suite, tc);
     tcase_add_loop_test(tc, single_points_are_uniform, 0,
                         sizeof hows / sizeof *hows);
+    tcase_add_test(tc, defects_are_found);
     tcase_add_test(tc, pairs_of_points);
     return oracle_run(suite);
 }
