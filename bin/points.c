@@ -33,8 +33,8 @@ static const cli_option options[] = {
     {RADIUS, "radius", "R",
      "the least distance of poisson (default: the most found)"},
     {TORUS, "torus", NULL, "distances of poisson go across the faces"},
-    {SCRAMBLE, "scramble", "none|digits|owen|matrix|shift",
-     "permute the digits at random, nested or not, or shift (default none)"},
+    {SCRAMBLE, "scramble", "HOW",
+     "none, digits, owen, matrix or shift (default none)"},
     {BAKER, "baker", NULL, "fold every coordinate in the middle"},
     {REPLICATES, "replicates", "R", "so many independent sets (default 1)"},
     {NPY, "npy", NULL, "write NumPy arrays"},
@@ -168,7 +168,7 @@ static koksma_gen *open_set(const koksma_gen_family *family,
     return g;
 }
 
-/* Nets have powers of their base. */
+/* Nets have powers of their base; the larger one may not fit. */
 static void warn_of_sizes(const koksma_gen *g, const char *family, uint64_t n)
 {
     uint64_t b = koksma_gen_net(g), power = 1;
@@ -176,9 +176,12 @@ static void warn_of_sizes(const koksma_gen *g, const char *family, uint64_t n)
     if (b == 0) return;
     while (power <= n / b)
         power *= b;
-    if (power < n)
+    if (power < n && power <= UINT64_MAX / b)
         cli_note("%ju points of %s are no net: %ju or %ju would be", (uintmax_t)n,
                  family, (uintmax_t)power, (uintmax_t)(power * b));
+    else if (power < n)
+        cli_note("%ju points of %s are no net: %ju would be", (uintmax_t)n, family,
+                 (uintmax_t)power);
 }
 
 static void write_set(const koksma_gen *g, const koksma_gen_opts *o,
@@ -204,65 +207,82 @@ static void write_set(const koksma_gen *g, const koksma_gen_opts *o,
     free(x);
 }
 
-int main(int argc, char *argv[])
+typedef struct job {
+    koksma_gen_opts o;
+    koksma_form form;
+    uint64_t replicates;
+    lists given;
+} job;
+
+static void read_options(job *j, int argc, char *argv[])
 {
-    static lists given;
-    koksma_gen_opts o = {.dim = 0, .n = 1024, .seed = 1};
-    koksma_form form = KOKSMA_DECIMAL;
-    uint64_t replicates = 1;
+    koksma_gen_opts *o = &j->o;
     int c;
 
-    char **words = malloc(((size_t)argc + 1) * sizeof *words);
-
-    if (words == NULL) cli_fail("not enough memory");
-    memcpy(words, argv,
-           ((size_t)argc + 1) * sizeof *words); /* getopt reorders argv */
     while ((c = cli_next(&tool, argc, argv)) != -1)
         switch (c) {
         case 'd':
-            o.dim = (size_t)cli_count("-d", optarg, 1, SIZE_MAX / 65536);
+            o->dim = (size_t)cli_count("-d", optarg, 1, SIZE_MAX / 65536);
             break;
-        case 'n': o.n = cli_count("-n", optarg, 1, UINT64_MAX); break;
-        case 's': o.seed = cli_count("-s", optarg, 0, UINT64_MAX); break;
-        case START: o.start = cli_count("--start", optarg, 0, UINT64_MAX); break;
-        case LEAP: o.leap = cli_count("--leap", optarg, 1, UINT64_MAX); break;
-        case RADIUS: o.radius = cli_real("--radius", optarg, 1e-9, 1.0); break;
-        case TORUS: o.torus = true; break;
-        case BAKER: o.baker = true; break;
-        case BASES: given.bases = copy_of(optarg); break;
-        case VECTOR: given.vector = copy_of(optarg); break;
-        case SCRAMBLE: o.scramble = read_scramble(optarg); break;
+        case 'n': o->n = cli_count("-n", optarg, 1, UINT64_MAX); break;
+        case 's': o->seed = cli_count("-s", optarg, 0, UINT64_MAX); break;
+        case START: o->start = cli_count("--start", optarg, 0, UINT64_MAX); break;
+        case LEAP: o->leap = cli_count("--leap", optarg, 1, UINT64_MAX); break;
+        case BASES: j->given.bases = copy_of(optarg); break;
+        case VECTOR: j->given.vector = copy_of(optarg); break;
+        case RADIUS: o->radius = cli_real("--radius", optarg, 1e-9, 1.0); break;
+        case TORUS: o->torus = true; break;
+        case SCRAMBLE: o->scramble = read_scramble(optarg); break;
+        case BAKER: o->baker = true; break;
         case REPLICATES:
-            replicates = cli_count("--replicates", optarg, 1, 1000000);
+            j->replicates = cli_count("--replicates", optarg, 1, 1000000);
             break;
-        case NPY: form = KOKSMA_NPY; break;
-        case HEX: form = KOKSMA_HEX; break;
+        case NPY: j->form = KOKSMA_NPY; break;
+        case HEX: j->form = KOKSMA_HEX; break;
         case LIST: list_families();
         }
     if (argc - optind != 1) cli_usage("name one family; --list lists them");
+}
 
-    const koksma_gen_family *family = koksma_gen_find(argv[optind]);
+static const koksma_gen_family *find_family(job *j, const char *name)
+{
+    const koksma_gen_family *family = koksma_gen_find(name);
 
     if (family == NULL)
-        cli_usage("no family is called \"%s\"; --list lists them", argv[optind]);
-    if (o.dim == 0) o.dim = family->max_dim > 1 ? 2 : 1;
-    if (replicates > 1 && o.scramble == KOKSMA_SCRAMBLE_NONE &&
+        cli_usage("no family is called \"%s\"; --list lists them", name);
+    if (j->o.dim == 0) j->o.dim = family->max_dim > 1 ? 2 : 1;
+    if (j->replicates > 1 && j->o.scramble == KOKSMA_SCRAMBLE_NONE &&
         !(family->takes & KOKSMA_TAKES_SEED))
         cli_usage("replicates of %s would be equal: --scramble makes them differ",
                   family->name);
-    read_lists(&given, &o, family);
-    for (o.replicate = 0; o.replicate < replicates; o.replicate++) {
-        koksma_gen *g = open_set(family, &o);
+    read_lists(&j->given, &j->o, family);
+    return family;
+}
 
-        if (o.replicate == 0) warn_of_sizes(g, family->name, o.n);
-        if (form != KOKSMA_NPY && o.replicate == 0)
-            print_comment(argc, words, &o, family->name);
-        if (form != KOKSMA_NPY && o.replicate > 0) putchar('\n');
-        write_set(g, &o, form);
+int main(int argc, char *argv[])
+{
+    static job j = {
+        .o = {.n = 1024, .seed = 1}, .form = KOKSMA_DECIMAL, .replicates = 1};
+    const koksma_gen_family *family;
+    /* getopt reorders argv */
+    char **words = malloc(((size_t)argc + 1) * sizeof *words);
+
+    if (words == NULL) cli_fail("not enough memory");
+    memcpy(words, argv, ((size_t)argc + 1) * sizeof *words);
+    read_options(&j, argc, argv);
+    family = find_family(&j, argv[optind]);
+    for (; j.o.replicate < j.replicates; j.o.replicate++) {
+        koksma_gen *g = open_set(family, &j.o);
+
+        if (j.o.replicate == 0) warn_of_sizes(g, family->name, j.o.n);
+        if (j.form != KOKSMA_NPY && j.o.replicate == 0)
+            print_comment(argc, words, &j.o, family->name);
+        if (j.form != KOKSMA_NPY && j.o.replicate > 0) putchar('\n');
+        write_set(g, &j.o, j.form);
         koksma_gen_close(g);
     }
-    free(given.bases);
-    free(given.vector);
+    free(j.given.bases);
+    free(j.given.vector);
     free(words);
     cli_finish(CLI_DONE);
 }

@@ -41,15 +41,17 @@ const koksma_gen_family *koksma_gen_find(const char *name);
 
 typedef enum koksma_scramble {
     KOKSMA_SCRAMBLE_NONE,
-    KOKSMA_SCRAMBLE_DIGITS, /* every digit place of every coordinate permuted at
-                             * random; in base 2, the digital shift */
-    KOKSMA_SCRAMBLE_OWEN, /* nested: permuted at random, depending on all the digits
-                           * before the place [Owen 1995] */
-    KOKSMA_SCRAMBLE_MATRIX, /* digits times a random lower triangular matrix, then
-                             * permuted [Matousek 1998] */
-    KOKSMA_SCRAMBLE_SHIFT   /* every coordinate plus a random number, modulo 1, cut
-                             * off   to a multiple of 2^-53 [Cranley, Patterson 1976]
-                             */
+    /* Every digit place of every coordinate permuted at random; in base 2, the
+     * digital shift. */
+    KOKSMA_SCRAMBLE_DIGITS,
+    /* Nested: permuted at random, depending on the digits before it [Owen 1995]. */
+    KOKSMA_SCRAMBLE_OWEN,
+    /* Digits times a random lower triangular matrix, then permuted [Matousek 1998].
+     */
+    KOKSMA_SCRAMBLE_MATRIX,
+    /* Every coordinate plus a random number, modulo 1, cut off to a multiple of
+     * 2^-53 [Cranley, Patterson 1976]. */
+    KOKSMA_SCRAMBLE_SHIFT
 } koksma_scramble;
 
 typedef struct koksma_gen_opts {
@@ -76,50 +78,51 @@ typedef struct koksma_gen koksma_gen;
 
 /* Prepare a generator.  It does not change afterwards: threads can share it.
  *
- * Halton: coordinate k is the radical inverse of the index in base b_k, the
- * largest double not above it, never 1 [Halton 1960].  Digits scrambled: each of
- * the digit places, infinitely many zeros in front of the index included, has a
+ * Digits.  Halton: coordinate k is the radical inverse of the index in base b_k,
+ * the largest double not above it, never 1 [Halton 1960].  Digits scrambled: each
+ * of the digit places, infinitely many zeros in front of the index included, has a
  * permutation of its own, drawn uniformly [Owen, Pan 2023 on its variance]; the
- * result is within two ulps and below 1.  Van der Corput: Halton in one dimension.
- * Hammersley: i/n, then Halton.  Faure: the least prime base b >= dim, matrices C^k
- * for k = 0, ..., dim-1 and Pascal's C, natural order [Faure 1982], rounded and
- * scrambled as Halton.  Sobol': Gray-code order, the direction numbers of [Joe, Kuo
- * 2008], 64 binary places; scrambled, cut off to a multiple of 2^-53, as random
- * coordinates are. Niederreiter: the same with the matrices of [Bratley, Fox,
- * Niederreiter 1994].
+ * result, and that of nested scrambling, is within two ulps and below 1.  Van der
+ * Corput: Halton in one dimension.  Hammersley: i/n, then Halton.  Faure: the least
+ * prime base b >= dim, matrices C^k for k = 0, ..., dim-1 and Pascal's C, natural
+ * order [Faure 1982]; rounded and scrambled as Halton.  Sobol': Gray-code order,
+ * the direction numbers of [Joe, Kuo 2008], 64 binary places; scrambled, cut off to
+ * a multiple of 2^-53, as random coordinates are.  Niederreiter: the same with the
+ * matrices of [Bratley, Fox, Niederreiter 1994].  Zaremba: i/n, and the radical
+ * inverse in base 2 with its places 2, 4, ... turned round, n = 2^m [Halton,
+ * Zaremba 1969].
  *
- * Kronecker sequences: i alpha_k mod 1, for an alpha that is cut off to 128 binary
- * places and so to less than 2^-64 at any i, cut off to a multiple of 2^-53;
- * Richtmyer: square roots of the first primes [Richtmyer 1951]; R-sequence: g, ...,
- * g^dim with g^dim + g^(dim+1) = 1 [Roberts 2018].  Lattices: i z_k/n mod 1, the
- * largest double not above it; Korobov: z = 1, a, a^2, ... [Korobov 1959];
- * Fibonacci: n = F_m and z = 1, F_(m-1).
+ * Multiples.  Kronecker: i alpha_k mod 1 for an alpha cut off to 128 binary places,
+ * and so within 2^-64 at any i, cut off to a multiple of 2^-53.  Richtmyer: alpha
+ * the square roots of the first primes [Richtmyer 1951].  R-sequence: g, ..., g^dim
+ * with g^dim + g^(dim+1) = 1 [Roberts 2018].  Lattice: i z_k/n mod 1, the largest
+ * double not above it.  Korobov: z = 1, a, a^2, ... [Korobov 1959].  Fibonacci: n =
+ * F_m and z = 1, F_(m-1).
  *
- * Grid: {0..m-1}/m in each axis, n = m^dim, the last coordinate fastest; centred:
- * {1/2..m-1/2}/m.  Zaremba: i/n and Hammersley's second coordinate in base 2 with
- * places 2, 4, ... turned round, n = 2^m [Halton, Zaremba 1969].
+ * Cells.  Grid: {0..m-1}/m in each axis, n = m^dim, the last coordinate fastest.
+ * Centred: {1/2..m-1/2}/m.  Jittered: uniform in cell i of the grid [Cook 1986].
+ * Latin: each of n strata of each axis has one point, uniform in it, in an order
+ * drawn uniformly for each axis [McKay, Beckman, Conover 1979].  Multi-jittered:
+ * both, all such orders as likely [Chiu, Shirley, Wang 1994].  No rounding takes a
+ * point out of its cell or stratum.
  *
- * Jittered: uniform in cell i of that grid [Cook 1986].  Latin: each of the n
- * strata of each axis has one point, uniform in it, in an order drawn uniformly for
- * each axis [McKay, Beckman, Conover 1979].  Multi-jittered: both, every choice for
- * an axis as likely as any other [Chiu, Shirley, Wang 1994].  In all three no
- * rounding takes a point out of its cell or stratum.  Poisson: random darts of
- * which those are kept that are not nearer than a radius to one before; without a
- * given radius, for one that shrinks by 1/256 every n darts, from where n balls of
- * half of it are as dense as darts can get [McCool, Fiume 1992; Torquato, Uche,
- * Stillinger 2006].
+ * Disks.  Poisson: random darts, of which those are kept that are not nearer than a
+ * radius to one before.  Without a given radius it shrinks by 1/256 every n darts,
+ * from where n balls of half of it are as dense as darts can get [McCool, Fiume
+ * 1992; Torquato, Uche, Stillinger 2006].
  *
  * Folding makes of the 1 that it may come to the double below it.
  *
- * Returns: KOKSMA_OK; KOKSMA_EINVAL: dim out of the family's range, n = 0 or not
- *          m^dim, 2^m, F_m, too large, fewer found than n at a radius, an index
- * above 2^64 - 1, an option given to a family that does not take it, bases below 2
- * or with a common factor, a leap with a factor in common with a base, a vector of
- * another length; KOKSMA_ENOMEM Cost: permutations of digits take 4 sum_k b_k
- * ceil(64/log2 b_k) bytes, digital sequences in base 2 0.7 kB a coordinate and 2 kB
- * more when nested; a nested digit a of a coordinate in another base takes some a
- * steps; latin and multi-jittered take 4 dim n bytes, Poisson 8 (dim + 1) n, and
- * some 30 n darts */
+ * Returns: KOKSMA_OK; KOKSMA_EINVAL: dim out of the family's range, n = 0, too
+ * large or not m^dim, 2^m, F_m, an index above 2^64 - 1, an option given to a
+ *          family that does not take it, bases below 2 or with a common factor, a
+ *          leap with a factor in common with a base, a vector of another length,
+ *          fewer than n points found at the radius; KOKSMA_ENOMEM
+ * Cost:    permutations of digits take 4 sum_k b_k ceil(64/log2 b_k) bytes;
+ * sequences in base 2 take 0.7 kB a coordinate, and 2 kB more when nested; nested
+ *          scrambling of a digit a in another base takes some a steps; latin and
+ *          multi-jittered take 4 dim n bytes; Poisson takes 8 (dim + 1) n bytes and
+ *          some tens of darts a point */
 koksma_status koksma_gen_open(koksma_gen **out, const koksma_gen_family *family,
                               const koksma_gen_opts *opts, koksma_error *err);
 void koksma_gen_close(koksma_gen *g); /* g may be NULL */
@@ -131,8 +134,8 @@ void koksma_gen_close(koksma_gen *g); /* g may be NULL */
 koksma_status koksma_gen_fill(const koksma_gen *g, double *x, uint64_t first,
                               size_t count, koksma_error *err);
 
-/* The base b of a sequence whose first b^m points are a net for every m, and less
- * even in other numbers; 0 for a family that is none. */
+/* The base b of a digital sequence, of which b^m points are a net for every m; 0
+ * for other families. */
 uint32_t koksma_gen_net(const koksma_gen *g);
 
 #endif

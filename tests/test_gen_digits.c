@@ -163,11 +163,16 @@ START_TEST(permuted_digits)
         ki_radical_fill(&r, room, 2, ranges[at].start, (size_t)ranges[at].n);
         for (uint64_t i = 0; i < ranges[at].n; i++) {
             uint64_t index = ranges[at].start + i;
+            uint32_t digit[64];
             ki_u128 image = 0;
             double v = room[2 * i], low;
 
-            for (unsigned j = 0; j < digits; j++, index /= r.base)
-                image = image * r.base + r.permutation[j * r.base + index % r.base];
+            for (unsigned j = 0; j < digits; j++, index /= r.base) {
+                digit[j] = (uint32_t)(index % r.base);
+                image = image * r.base + r.permutation[j * r.base + digit[j]];
+            }
+            if (ki_radical_value(&r, digit, digits) != v)
+                ck_abort_msg("%a from digits", ki_radical_value(&r, digit, digits));
             low = truncated(image, p);
             if (!(v < 1.0 && v >= nextafter(nextafter(low, 0.0), 0.0) &&
                   v <= nextafter(nextafter(low, 2.0), 2.0)))
@@ -289,6 +294,55 @@ START_TEST(nested_digits)
     /* Five spreads around a half; for b = 2 there is one a a seed. */
     ck_assert(fabs((double)orders - 0.5 * (double)draws) <
               2.5 * sqrt((double)draws));
+}
+END_TEST
+
+/* Which of the six permutations of the digits behind the point in base 3 the node
+ * of some index's lowest `depth` digits has, from the three indices that go on from
+ * it. */
+static size_t order_at(const double *x, size_t index, unsigned depth)
+{
+    size_t step = 1;
+    double v[3];
+
+    for (unsigned j = 0; j < depth; j++)
+        step *= 3;
+    for (size_t d = 0; d < 3; d++)
+        v[d] = fmod(x[index + d * step] * (double)step, 1.0);
+    return (size_t)(v[0] > v[1]) +
+           2 * ((size_t)(v[0] > v[2]) + (size_t)(v[1] > v[2]));
+}
+
+/* Two nodes' permutations have nothing to do with each other: the root and a node
+ * behind it, two of one depth, and two that differ in the first digit of two. */
+START_TEST(nodes_are_independent)
+{
+    static const struct {
+        size_t index;
+        unsigned depth;
+    } nodes[][2] = {{{0, 0}, {0, 1}}, {{0, 1}, {1, 1}}, {{0, 0}, {1, 1}},
+                    {{3, 2}, {4, 2}}, {{1, 1}, {1, 2}}, {{0, 1}, {2, 2}}};
+    size_t cell[6][36] = {{0}};
+    enum { DRAWS = 3600 };
+
+    for (uint64_t seed = 0; seed < DRAWS; seed++) {
+        static const uint32_t three[] = {3};
+        koksma_gen_opts o = {.dim = 1, .n = 27, .bases = three, .seed = seed};
+
+        o.scramble = KOKSMA_SCRAMBLE_OWEN;
+        fill_all(room, "halton", o);
+        for (size_t p = 0; p < 6; p++)
+            cell[p][order_at(room, nodes[p][0].index, nodes[p][0].depth) * 6 +
+                    order_at(room, nodes[p][1].index, nodes[p][1].depth)]++;
+    }
+    for (size_t p = 0; p < 6; p++) {
+        double chi = 0.0;
+
+        for (size_t i = 0; i < 36; i++)
+            chi += pow((double)cell[p][i] - DRAWS / 36.0, 2.0) / (DRAWS / 36.0);
+        ck_assert_msg(chi < 36.0 + 5.0 * sqrt(72.0), "pair %zu: chi-square %g", p,
+                      chi);
+    }
 }
 END_TEST
 
@@ -430,6 +484,7 @@ int main(void)
     tcase_add_loop_test(tc, permutations_are_uniform, KOKSMA_SCRAMBLE_DIGITS,
                         KOKSMA_SCRAMBLE_OWEN + 1);
     tcase_add_loop_test(tc, nested_digits, 0, 5);
+    tcase_add_test(tc, nodes_are_independent);
 
     tc = tcase_create("sobol");
     suite_add_tcase(suite, tc);
