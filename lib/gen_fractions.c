@@ -30,8 +30,12 @@ KI_GEN_CLONES void ki_fractions(double *x, size_t stride, const uint64_t *bits,
     for (; at + LANES <= count; at += LANES, bits += LANES) {
         for (size_t i = 0; i < LANES; i++)
             lane[i] = whole(bits[i] >> 11) * 0x1p-53;
-        for (size_t i = 0; i < LANES; i++, x += stride)
-            *x = lane[i];
+        for (size_t i = 0; i < LANES; i += 4, x += 4 * stride) {
+            x[0] = lane[i];
+            x[stride] = lane[i + 1];
+            x[2 * stride] = lane[i + 2];
+            x[3 * stride] = lane[i + 3];
+        }
     }
     for (; at < count; at++, x += stride)
         *x = ki_rng_fraction(*bits++);

@@ -6,11 +6,14 @@
 
 /* Private: what a family brings, and the arithmetic they share. */
 
-/* Versions of a loop over integers for wider vectors. */
+/* Versions of a loop for wider vectors, with the same bits. */
 #ifdef HAVE_TARGET_CLONES
 #define KI_GEN_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
+#define KI_GEN_FMA_CLONES                                                          \
+    __attribute__((target_clones("avx512f", "fma", "default")))
 #else
 #define KI_GEN_CLONES
+#define KI_GEN_FMA_CLONES
 #endif
 #define KI_GEN_INLINE static inline __attribute__((always_inline))
 

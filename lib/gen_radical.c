@@ -10,6 +10,8 @@
  * All of it counts in integers, and one division ends it: sums of powers of 1/b
  * in doubles are wrong by up to 7 ulps and can return 1. */
 
+enum { LANES = 8, TILE = 64 };
+
 /* r/p by long division, 53 bits from the first that is not 0. */
 static double divide_slowly(ki_u128 r, ki_u128 p)
 {
@@ -32,7 +34,7 @@ static double divide_slowly(ki_u128 r, ki_u128 p)
 /* r/p for p <= 2^53.  The division rounds to nearest; when that went up, as the
  * exact residue (one fma: q*p - r fits a double) says, the double below is the
  * one wanted.  q is positive then, and the double below has the bits one less. */
-static inline double divide(double r, double p)
+KI_GEN_INLINE double divide(double r, double p)
 {
     double q = r / p;
     uint64_t bits;
@@ -41,6 +43,23 @@ static inline double divide(double r, double p)
     bits -= fma(q, p, -r) > 0.0;
     memcpy(&q, &bits, sizeof q);
     return q;
+}
+
+/* The same of many r, side by side. */
+KI_GEN_FMA_CLONES static void divide_all(double *x, size_t stride, const double *r,
+                                         size_t count, double p)
+{
+    double q[LANES];
+    size_t at = 0;
+
+    for (; at + LANES <= count; at += LANES) {
+        for (size_t i = 0; i < LANES; i++)
+            q[i] = divide(r[at + i], p);
+        for (size_t i = 0; i < LANES; i++, x += stride)
+            *x = q[i];
+    }
+    for (; at < count; at++, x += stride)
+        *x = divide(r[at], p);
 }
 
 double ki_ratio(ki_u128 r, ki_u128 p)
@@ -99,6 +118,7 @@ static void fill_plain(uint32_t base, double *x, size_t stride, uint64_t first,
 {
     uint64_t weight[64], p = 1, reversed = 0, index = first,
                          last = first + (count - 1);
+    double numerator[TILE];
     uint32_t digit[64];
     int digits = 0;
 
@@ -117,7 +137,10 @@ static void fill_plain(uint32_t base, double *x, size_t stride, uint64_t first,
     for (size_t i = 0; i < count; i++) {
         int j = 0;
 
-        x[i * stride] = divide((double)reversed, (double)p);
+        numerator[i % TILE] = (double)(int64_t)reversed;
+        if (i % TILE == TILE - 1 || i == count - 1)
+            divide_all(x + (i - i % TILE) * stride, stride, numerator, i % TILE + 1,
+                       (double)p);
         for (; j < digits && ++digit[j] == base; j++) {
             digit[j] = 0;
             reversed -= (base - 1) * weight[j];
