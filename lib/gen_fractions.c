@@ -21,8 +21,8 @@ static inline double whole(uint64_t v)
     return (h - 0x1.00000001p84) + l;
 }
 
-KI_GEN_CLONES void ki_fractions(double *x, size_t stride, const uint64_t *bits,
-                                size_t count)
+KI_GEN_CLONES static void scatter(double *x, size_t stride, const uint64_t *bits,
+                                  size_t count)
 {
     double lane[LANES];
     size_t at = 0;
@@ -41,7 +41,7 @@ KI_GEN_CLONES void ki_fractions(double *x, size_t stride, const uint64_t *bits,
         *x = ki_rng_fraction(*bits++);
 }
 
-KI_GEN_CLONES void ki_random_fractions(double *x, koksma_rng r, size_t count)
+KI_GEN_CLONES static void draw(double *x, koksma_rng r, size_t count)
 {
     size_t at = 0;
 
@@ -50,4 +50,15 @@ KI_GEN_CLONES void ki_random_fractions(double *x, koksma_rng r, size_t count)
             x[at + i] = whole(ki_rng_at(r, at + i) >> 11) * 0x1p-53;
     for (; at < count; at++)
         x[at] = ki_rng_fraction(ki_rng_at(r, at));
+}
+
+/* Compilers do not agree on the names of versions, which stay in this file. */
+void ki_fractions(double *x, size_t stride, const uint64_t *bits, size_t count)
+{
+    scatter(x, stride, bits, count);
+}
+
+void ki_random_fractions(double *x, koksma_rng r, size_t count)
+{
+    draw(x, r, count);
 }

@@ -6,7 +6,8 @@
 
 /* Private: what a family brings, and the arithmetic they share. */
 
-/* Versions of a loop for wider vectors, with the same bits. */
+/* Versions of a loop for wider vectors, with the same bits; for static functions.
+ */
 #ifdef HAVE_TARGET_CLONES
 #define KI_GEN_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
 #define KI_GEN_FMA_CLONES                                                          \
