@@ -11,17 +11,6 @@ typedef struct halton {
     ki_radical radical[];
 } halton;
 
-static uint32_t gcd(uint32_t a, uint32_t b)
-{
-    while (b > 0) {
-        uint32_t rest = a % b;
-
-        a = b;
-        b = rest;
-    }
-    return a;
-}
-
 /* Coprimality is checked pair by pair, which for primes by default is not
  * needed: only what a caller gives is checked. */
 static koksma_status take_bases(halton *h, const uint32_t *bases, koksma_error *err)
@@ -31,7 +20,7 @@ static koksma_status take_bases(halton *h, const uint32_t *bases, koksma_error *
             return ki_fail(err, KOKSMA_EINVAL, 0, "base %ju: a base is at least 2",
                            (uintmax_t)bases[k]);
         for (size_t l = 0; l < k; l++)
-            if (gcd(bases[k], bases[l]) > 1)
+            if (ki_gcd(bases[k], bases[l]) > 1)
                 return ki_fail(err, KOKSMA_EINVAL, 0,
                                "bases %ju and %ju have a common factor",
                                (uintmax_t)bases[l], (uintmax_t)bases[k]);
@@ -60,8 +49,6 @@ static void take_primes(halton *h)
 static koksma_status prepare(koksma_gen *g, size_t bases, koksma_error *err)
 {
     const koksma_gen_opts *o = &g->opts;
-    koksma_rng streams = koksma_rng_seed(o->seed, o->replicate);
-    uint64_t seed = koksma_rng_next(&streams);
     koksma_status status = KOKSMA_OK;
     size_t bytes;
     halton *h;
@@ -75,11 +62,13 @@ static koksma_status prepare(koksma_gen *g, size_t bases, koksma_error *err)
         status = take_bases(h, o->bases, err);
     else
         take_primes(h);
-    if (status != KOKSMA_OK || o->scramble == KOKSMA_SCRAMBLE_NONE) return status;
-    for (size_t k = 0; k < bases; k++)
-        if (ki_radical_permute(&h->radical[k], seed, k) != 0)
-            return ki_fail_memory(err, "the digit permutations");
-    return KOKSMA_OK;
+    for (size_t k = 0; k < bases && status == KOKSMA_OK; k++) {
+        status = ki_check_leap(o->leap, h->radical[k].base, err);
+        if (status == KOKSMA_OK && ki_radical_scramble(&h->radical[k], o->scramble,
+                                                       ki_gen_stream(g, k)) != 0)
+            status = ki_fail_memory(err, "the digit permutations");
+    }
+    return status;
 }
 
 static koksma_status prepare_halton(koksma_gen *g, koksma_error *err)

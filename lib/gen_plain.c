@@ -2,7 +2,6 @@
 
 #include "error.h"
 #include "gen_kernels.h"
-#include "rng.h"
 
 /* Random points, and grids. */
 
@@ -12,8 +11,7 @@ static void fill_random(const koksma_gen *g, double *x, uint64_t first,
     koksma_rng r = koksma_rng_seed(g->opts.seed, g->opts.replicate);
 
     koksma_rng_skip(&r, first * g->opts.dim);
-    for (size_t i = 0; i < count * g->opts.dim; i++)
-        x[i] = koksma_rng_unit(&r);
+    ki_random_fractions(x, r, count * g->opts.dim);
 }
 
 /* m^dim, or 0 when it is 2^64 or more. */
@@ -26,8 +24,7 @@ static uint64_t power(uint64_t m, size_t dim)
     return p;
 }
 
-/* The m with m^dim = n, or 0. */
-static uint64_t side(const koksma_gen *g)
+uint64_t ki_grid_side(const koksma_gen *g)
 {
     uint64_t n = g->opts.n, m;
 
@@ -39,9 +36,9 @@ static uint64_t side(const koksma_gen *g)
     return 0;
 }
 
-static koksma_status prepare_grid(koksma_gen *g, koksma_error *err)
+koksma_status ki_grid_check(koksma_gen *g, koksma_error *err)
 {
-    if (side(g) > 0) return KOKSMA_OK;
+    if (ki_grid_side(g) > 0) return KOKSMA_OK;
     return ki_fail(err, KOKSMA_EINVAL, 0,
                    "%ju points make no grid in %zu dimensions: no m^%zu",
                    (uintmax_t)g->opts.n, g->opts.dim, g->opts.dim);
@@ -52,7 +49,7 @@ static void fill_cells(const koksma_gen *g, double *x, uint64_t first, size_t co
                        unsigned half)
 {
     size_t dim = g->opts.dim;
-    uint64_t m = side(g);
+    uint64_t m = ki_grid_side(g);
 
     for (size_t i = 0; i < count; i++) {
         uint64_t index = first + i;
@@ -75,5 +72,5 @@ static void fill_centred(const koksma_gen *g, double *x, uint64_t first,
 }
 
 const ki_gen_kernel ki_gen_random = {NULL, fill_random, NULL};
-const ki_gen_kernel ki_gen_grid = {prepare_grid, fill_grid, NULL};
-const ki_gen_kernel ki_gen_centred = {prepare_grid, fill_centred, NULL};
+const ki_gen_kernel ki_gen_grid = {ki_grid_check, fill_grid, NULL};
+const ki_gen_kernel ki_gen_centred = {ki_grid_check, fill_centred, NULL};

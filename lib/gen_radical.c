@@ -10,9 +10,7 @@
  * All of it counts in integers, and one division ends it: sums of powers of 1/b
  * in doubles are wrong by up to 7 ulps and can return 1. */
 
-/* A double holds every integer up to here, so that a division of two such
- * integers rounds once. */
-static const uint64_t EXACT = (uint64_t)1 << 53;
+enum { LANES = 8, TILE = 64 };
 
 /* r/p by long division, 53 bits from the first that is not 0. */
 static double divide_slowly(ki_u128 r, ki_u128 p)
@@ -21,7 +19,7 @@ static double divide_slowly(ki_u128 r, ki_u128 p)
     int places = 0;
 
     if (r == 0) return 0.0;
-    while (bits < EXACT / 2) {
+    while (bits < KI_EXACT / 2) {
         r <<= 1;
         bits <<= 1;
         if (r >= p) {
@@ -36,7 +34,7 @@ static double divide_slowly(ki_u128 r, ki_u128 p)
 /* r/p for p <= 2^53.  The division rounds to nearest; when that went up, as the
  * exact residue (one fma: q*p - r fits a double) says, the double below is the
  * one wanted.  q is positive then, and the double below has the bits one less. */
-static inline double divide(double r, double p)
+KI_GEN_INLINE double divide(double r, double p)
 {
     double q = r / p;
     uint64_t bits;
@@ -47,10 +45,27 @@ static inline double divide(double r, double p)
     return q;
 }
 
+/* The same of many r, side by side. */
+KI_GEN_FMA_CLONES static void divide_all(double *x, size_t stride, const double *r,
+                                         size_t count, double p)
+{
+    double q[LANES];
+    size_t at = 0;
+
+    for (; at + LANES <= count; at += LANES) {
+        for (size_t i = 0; i < LANES; i++)
+            q[i] = divide(r[at + i], p);
+        for (size_t i = 0; i < LANES; i++, x += stride)
+            *x = q[i];
+    }
+    for (; at < count; at++, x += stride)
+        *x = divide(r[at], p);
+}
+
 double ki_ratio(ki_u128 r, ki_u128 p)
 {
-    return p <= EXACT ? divide((double)(uint64_t)r, (double)(uint64_t)p)
-                      : divide_slowly(r, p);
+    return p <= KI_EXACT ? divide((double)(uint64_t)r, (double)(uint64_t)p)
+                         : divide_slowly(r, p);
 }
 
 unsigned ki_radical_digits(uint32_t base)
@@ -62,10 +77,13 @@ unsigned ki_radical_digits(uint32_t base)
     return digits;
 }
 
-int ki_radical_permute(ki_radical *r, uint64_t seed, uint64_t stream)
+int ki_radical_scramble(ki_radical *r, koksma_scramble how, koksma_rng rng)
 {
     unsigned digits = ki_radical_digits(r->base);
-    koksma_rng rng = koksma_rng_seed(seed, stream);
+
+    r->how = how;
+    r->nested = rng;
+    if (how != KOKSMA_SCRAMBLE_DIGITS) return 0;
 
     r->permutation = ki_alloc(digits, r->base * sizeof *r->permutation);
     if (r->permutation == NULL) return -1;
@@ -100,10 +118,11 @@ static void fill_plain(uint32_t base, double *x, size_t stride, uint64_t first,
 {
     uint64_t weight[64], p = 1, reversed = 0, index = first,
                          last = first + (count - 1);
+    double numerator[TILE];
     uint32_t digit[64];
     int digits = 0;
 
-    for (; p <= last && p <= EXACT / base; p *= base)
+    for (; p <= last && p <= KI_EXACT / base; p *= base)
         digits++;
     if (p <= last) {
         for (size_t i = 0; i < count; i++)
@@ -118,7 +137,10 @@ static void fill_plain(uint32_t base, double *x, size_t stride, uint64_t first,
     for (size_t i = 0; i < count; i++) {
         int j = 0;
 
-        x[i * stride] = divide((double)reversed, (double)p);
+        numerator[i % TILE] = (double)(int64_t)reversed;
+        if (i % TILE == TILE - 1 || i == count - 1)
+            divide_all(x + (i - i % TILE) * stride, stride, numerator, i % TILE + 1,
+                       (double)p);
         for (; j < digits && ++digit[j] == base; j++) {
             digit[j] = 0;
             reversed -= (base - 1) * weight[j];
@@ -127,20 +149,26 @@ static void fill_plain(uint32_t base, double *x, size_t stride, uint64_t first,
     }
 }
 
+/* A result that was rounded up to 1 is brought back below. */
+double ki_radical_join(uint64_t head, uint64_t p, uint64_t tail, uint64_t tail_p)
+{
+    double v = ((double)head + (double)tail / (double)tail_p) / (double)p;
+
+    return v < 1.0 ? v : 1.0 - 0x1p-53;
+}
+
 /* Permuted digits: the first places, as many as p <= 2^53 allows, make an integer
  * over p; the rest make a fraction of its unit, which changes only when the
- * index passes p.  Neither rounds by more than half an ulp, and a result that
- * was rounded up to 1 is brought back below. */
+ * index passes p. */
 static void fill_permuted(const ki_radical *r, double *x, size_t stride,
                           uint64_t first, size_t count)
 {
-    static const double BELOW_ONE = 1.0 - 0x1p-53;
     uint64_t weight[64], p = 1, tail_p = 1, head = 0, tail = 0, index = first;
     uint32_t digit[65], base = r->base;
     unsigned digits = ki_radical_digits(base), places = 0;
     const uint32_t *permutation = r->permutation;
 
-    while (places < digits && p <= EXACT / base)
+    while (places < digits && p <= KI_EXACT / base)
         p *= base, places++;
     for (unsigned j = places; j < digits; j++)
         tail_p *= base;
@@ -153,10 +181,9 @@ static void fill_permuted(const ki_radical *r, double *x, size_t stride,
         *(j < places ? &head : &tail) += image * weight[j];
     }
     for (size_t i = 0; i < count; i++) {
-        double v = ((double)head + (double)tail / (double)tail_p) / (double)p;
         const uint32_t *image = permutation;
 
-        x[i * stride] = v < 1.0 ? v : BELOW_ONE;
+        x[i * stride] = ki_radical_join(head, p, tail, tail_p);
         for (unsigned j = 0; j < digits; j++, image += base) {
             uint32_t old = digit[j]++;
             uint64_t *part = j < places ? &head : &tail;
@@ -170,10 +197,28 @@ static void fill_permuted(const ki_radical *r, double *x, size_t stride,
     }
 }
 
+static void fill_nested(const ki_radical *r, double *x, size_t stride,
+                        uint64_t first, size_t count)
+{
+    uint32_t digit[KI_DIGITS_MOST];
+    unsigned digits = ki_radical_digits(r->base);
+    uint64_t index = first;
+
+    for (unsigned j = 0; j < digits; j++, index /= r->base)
+        digit[j] = (uint32_t)(index % r->base);
+    for (size_t i = 0; i < count; i++) {
+        x[i * stride] = ki_radical_value(r, digit, digits);
+        for (unsigned j = 0; j < digits && ++digit[j] == r->base; j++)
+            digit[j] = 0;
+    }
+}
+
 void ki_radical_fill(const ki_radical *r, double *x, size_t stride, uint64_t first,
                      size_t count)
 {
-    if (r->permutation != NULL)
+    if (r->how == KOKSMA_SCRAMBLE_OWEN)
+        fill_nested(r, x, stride, first, count);
+    else if (r->how == KOKSMA_SCRAMBLE_DIGITS)
         fill_permuted(r, x, stride, first, count);
     else
         fill_plain(r->base, x, stride, first, count);

@@ -9,8 +9,12 @@ noinst_LTLIBRARIES = %D%/libcore.la
   %D%/error.c %D%/error.h \
   %D%/fit.c %D%/fit.h %D%/fit_kernels.h %D%/fit_grid.c %D%/fit_judge.c \
   %D%/fit_line.c %D%/fit_mixture.c \
-  %D%/gen.c %D%/gen.h %D%/gen_kernels.h %D%/gen_halton.c %D%/gen_plain.c \
-  %D%/gen_radical.c %D%/gen_sobol.c \
+  %D%/gen.c %D%/gen.h %D%/gen_kernels.h %D%/gen_binary.c %D%/gen_check.c \
+  %D%/gen_digits.c %D%/gen_faure.c %D%/gen_fixed.c %D%/gen_fold.c \
+  %D%/gen_fractions.c %D%/gen_halton.c %D%/gen_kronecker.c %D%/gen_lattice.c \
+  %D%/gen_niederreiter.c %D%/gen_owen.c %D%/gen_plain.c %D%/gen_poisson.c \
+  %D%/gen_primes.c %D%/gen_radical.c %D%/gen_sobol.c %D%/gen_strata.c \
+  %D%/gen_zaremba.c \
   %D%/integrand.c %D%/integrand.h %D%/integrand_kernels.h \
   %D%/integrand_ball.c %D%/integrand_box.c %D%/integrand_fractal.c \
   %D%/integrand_koch.c %D%/integrand_product.c %D%/integrand_spline.c \
@@ -25,7 +29,7 @@ noinst_LTLIBRARIES = %D%/libcore.la
   %D%/num_wide.h \
   %D%/part.c %D%/part.h \
   %D%/points.c %D%/points.h \
-  %D%/rng.c %D%/rng.h \
+  %D%/rng.c %D%/rng.h %D%/rng_kernels.h \
   %D%/scene.c %D%/scene.h %D%/scene_kernels.h \
   %D%/star.c %D%/star.h %D%/star_kernels.h %D%/star_sweep.c \
   %D%/star_best.c %D%/star_bound.c %D%/star_bound_closed.c \
@@ -44,11 +48,11 @@ noinst_LTLIBRARIES = %D%/libcore.la
 # Sobol's direction numbers, from the published table to C.
 BUILT_SOURCES += %D%/joe_kuo.inc
 CLEANFILES    += %D%/joe_kuo.inc
-%D%/joe_kuo.inc: $(top_srcdir)/data/joe_kuo_50.txt
+%D%/joe_kuo.inc: $(top_srcdir)/data/joe_kuo_1111.txt
 	$(AM_V_GEN)$(MKDIR_P) %D% && $(AWK) '/^[0-9]/ { \
 	  printf "{%s, %s, {%s", $$2, $$3, $$4; \
 	  for (i = 5; i <= NF; i++) printf ", %s", $$i; \
-	  print "}}," }' $(top_srcdir)/data/joe_kuo_50.txt >$@.new && mv $@.new $@
+	  print "}}," }' $(top_srcdir)/data/joe_kuo_1111.txt >$@.new && mv $@.new $@
 
 lib_LTLIBRARIES = %D%/libkoksma.la
 %C%_libkoksma_la_SOURCES =

@@ -1,31 +1,28 @@
 #include "rng.h"
 
-/* The odd integer nearest to 2^64 over the golden ratio: successive counters
- * are far apart in every leading bit. */
-static const uint64_t STEP = 0x9E3779B97F4A7C15u;
-
-/* The finaliser "mix64 variant 13" of the paper: a bijection of 64 bits. */
-static uint64_t hash(uint64_t z)
-{
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    return z ^ (z >> 31);
-}
+#include "rng_kernels.h"
 
 koksma_rng koksma_rng_seed(uint64_t seed, uint64_t stream)
 {
     /* Hashed twice, with a step between, so that neither (seed, stream) and
      * (stream, seed) nor neighbouring seeds meet. */
-    return (koksma_rng){hash(hash(seed + STEP) + stream * STEP)};
+    return (koksma_rng){
+        ki_rng_hash(ki_rng_hash(seed + KI_RNG_STEP) + stream * KI_RNG_STEP)};
 }
 
-uint64_t koksma_rng_next(koksma_rng *r) { return hash(r->counter += STEP); }
+uint64_t koksma_rng_next(koksma_rng *r)
+{
+    return ki_rng_hash(r->counter += KI_RNG_STEP);
+}
 
-void koksma_rng_skip(koksma_rng *r, uint64_t steps) { r->counter += steps * STEP; }
+void koksma_rng_skip(koksma_rng *r, uint64_t steps)
+{
+    r->counter += steps * KI_RNG_STEP;
+}
 
 double koksma_rng_unit(koksma_rng *r)
 {
-    return (double)(koksma_rng_next(r) >> 11) * 0x1p-53;
+    return ki_rng_fraction(koksma_rng_next(r));
 }
 
 uint64_t koksma_rng_below(koksma_rng *r, uint64_t n)

@@ -40,7 +40,7 @@ t hex 0 "0x1p-1${tab}0x1.5555555555555p-2" "" \
     'koksma-points halton -n 1 --start 1 -q --hex'
 t sobol 0 "0${tab}0
 0.5${tab}0.5
-0.75${tab}0.25" "" 'koksma-points sobol -n 3 -q'
+0.75${tab}0.25" "" 'koksma-points sobol -n 4 -q | head -n 3'
 t grid 0 "0${tab}0
 0${tab}0.5
 0.5${tab}0
@@ -125,7 +125,7 @@ t same-bits 0 "" "" \
      diff - a | grep "^<"; true'
 has version 0 '^koksma-star (koksma) [0-9]' 'koksma-star --version'
 has help 0 '^  -w, --witness' 'koksma-star -h'
-has list 0 "^sobol${tab}1-50" 'koksma-points --list'
+has list 0 "^sobol${tab}1-1111${tab}-${tab}digital" 'koksma-points --list'
 
 # ---- Bad input: a sentence with file, line and field, and no result --------------
 
@@ -234,12 +234,64 @@ t number-tail 2 "" \
 t no-grid 2 "" "koksma-points: 10 points make no grid in 2 dimensions: no m^2$try" \
     'koksma-points grid -n 10'
 t equal-replicates 2 "" \
-    "koksma-points: replicates of sobol would be equal: --scramble digits makes them differ$try" \
+    "koksma-points: replicates of sobol would be equal: --scramble makes them differ$try" \
     'koksma-points sobol --replicates 2'
 t common-factor 2 "" "koksma-points: bases 4 and 6 have a common factor$try" \
     'koksma-points halton --bases 4,6'
-t sobol-dim 2 "" "koksma-points: dimension 51: sobol has 1 to 50$try" \
-    'koksma-points sobol -d 51'
+t sobol-dim 2 "" "koksma-points: dimension 1112: sobol has 1 to 1111$try" \
+    'koksma-points sobol -d 1112'
+t no-net 0 "0${tab}0" "koksma-points: 1000 points of sobol are no net: 512 or 1024 would be" \
+    'koksma-points sobol -n 1000 -q | head -n 1'
+t leap 0 "0${tab}0
+0.78125${tab}0.4074074074074074" "" 'koksma-points halton -n 2 --leap 19 -q'
+t leap-factor 2 "" "koksma-points: leap 6 and base 2 have a common factor$try" \
+    'koksma-points halton --leap 6'
+t leap-too-far 2 "" "koksma-points: indices reach beyond 2^64 - 1$try" \
+    'koksma-points random --leap 2^63 -n 3'
+t scramble-word 2 "" \
+    "koksma-points: --scramble takes none, digits, owen, matrix or shift, not \"nested\"$try" \
+    'koksma-points sobol --scramble nested'
+t scramble-none 2 "" "koksma-points: grid has no digits to scramble$try" \
+    'koksma-points grid -n 4 --scramble owen'
+t faure 0 "0${tab}0${tab}0
+0.3333333333333333${tab}0.3333333333333333${tab}0.3333333333333333
+0.6666666666666666${tab}0.6666666666666666${tab}0.6666666666666666
+0.1111111111111111${tab}0.4444444444444444${tab}0.7777777777777777" "" \
+    'koksma-points faure -d 3 -n 3^7 -q | head -n 4'
+t fibonacci 0 "0${tab}0
+0.19999999999999998${tab}0.6" "" 'koksma-points fibonacci -n 5 -q | head -n 2'
+t vector 0 "# koksma-points kronecker --vector 0.25,3.5 -n 3
+# koksma: points=kronecker scramble=none
+0${tab}0
+0.25${tab}0.5
+0.5${tab}0" "" 'koksma-points kronecker --vector 0.25,3.5 -n 3'
+t vandercorput 0 "0
+0.5
+0.25" "" 'koksma-points vandercorput -n 4 -q | head -n 3'
+t vector-missing 2 "" \
+    "koksma-points: korobov in dimension 2 takes a vector of 1, not of 0$try" \
+    'koksma-points korobov -n 7'
+t vector-long 2 "" \
+    "koksma-points: lattice in dimension 2 takes a vector of 2, not of 3$try" \
+    'koksma-points lattice -n 7 --vector 1,2,3'
+t vector-word 2 "" \
+    "koksma-points: --vector takes a whole number from 0 to 18446744073709551615, not \"1.5\"$try" \
+    'koksma-points lattice -n 7 --vector 1,1.5'
+t no-fibonacci 2 "" "koksma-points: 100 points: 89 and 144 are Fibonacci numbers$try" \
+    'koksma-points fibonacci -n 100'
+t zaremba 0 "0${tab}0.25
+0.25${tab}0.75
+0.5${tab}0
+0.75${tab}0.5" "" 'koksma-points zaremba -n 4 -q'
+t disks-too-many 2 "" \
+    "koksma-points: only 1 points found that are 1 apart, not 2$try" \
+    'koksma-points poisson -n 2 --radius 1 --torus'
+t radius 2 "" "koksma-points: halton keeps no radius$try" \
+    'koksma-points halton --radius 0.1'
+t latin 0 "0
+1
+2
+3" "" 'koksma-points latin -d 1 -n 4 -q | awk "{ print int(\$1 * 4) }" | sort'
 t too-far 2 "" "koksma-points: indices reach beyond 2^64 - 1$try" \
     'koksma-points halton --start 18446744073709551615 -n 2'
 t prefixes-fall 2 "" \

@@ -30,7 +30,8 @@ check_LTLIBRARIES += %D%/liboracle.la
 unit_tests = \
   %D%/test_cells %D%/test_cells_lines %D%/test_curve %D%/test_extra %D%/test_facts %D%/test_fit %D%/test_fit_coverage \
   %D%/test_fit_judge %D%/test_fit_mixture %D%/test_fit_rules \
-  %D%/test_fractals %D%/test_gen %D%/test_gen_digits \
+  %D%/test_fractals %D%/test_gen %D%/test_gen_digits %D%/test_gen_scramble \
+  %D%/test_gen_lattice %D%/test_gen_nets %D%/test_gen_patterns \
   %D%/test_integrand %D%/test_io %D%/test_io_npy %D%/test_io_npy_bad \
   %D%/test_io_number %D%/test_io_reader %D%/test_io_table %D%/test_io_write \
   %D%/test_known %D%/test_l2 %D%/test_num %D%/test_part %D%/test_points \
@@ -126,7 +127,7 @@ benches = \
 EXTRA_PROGRAMS += $(benches)
 CLEANFILES     += $(benches)
 %C%_bench_gen_SOURCES  = %D%/bench_gen.c %D%/bench.h
-%C%_bench_gen_LDADD    = lib/libcore.la
+%C%_bench_gen_LDADD    = lib/libcore.la -ldl
 %C%_bench_io_SOURCES   = %D%/bench_io.c %D%/bench.h
 %C%_bench_io_LDADD     = lib/libcore.la
 %C%_bench_star_SOURCES = %D%/bench_star.c %D%/bench_star.h %D%/bench.h

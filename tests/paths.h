@@ -46,8 +46,9 @@ static inline void path_add(double *xs, double *ys, size_t *sets,
     const koksma_integrand_row *integrand = path_row(kind);
     koksma_gen_opts o = {.dim = kind.dim > 0 ? kind.dim : integrand->dim,
                          .n = kind.n,
-                         .scramble = family->random ? KOKSMA_SCRAMBLE_NONE
-                                                    : KOKSMA_SCRAMBLE_DIGITS,
+                         .scramble = family->takes & KOKSMA_TAKES_SEED
+                                         ? KOKSMA_SCRAMBLE_NONE
+                                         : KOKSMA_SCRAMBLE_DIGITS,
                          .seed = kind.seed,
                          .replicate = replicate};
     double *x = malloc(PATH_BLOCK * o.dim * sizeof *x), values[PATH_BLOCK];

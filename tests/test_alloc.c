@@ -117,24 +117,56 @@ static koksma_status divide_job(koksma_error *err)
     return l2_by(KOKSMA_L2_DIVIDE, err);
 }
 
-static koksma_status gen_job(koksma_error *err)
+static koksma_status open_by(const char *name, koksma_scramble scramble,
+                             koksma_error *err)
 {
-    koksma_gen_opts o = {.dim = 3, .n = 8, .scramble = KOKSMA_SCRAMBLE_DIGITS};
+    static const double alpha[] = {0.1, 0.2, 0.3};
+    koksma_gen_opts o = {.dim = 3, .n = 8, .scramble = scramble};
     koksma_gen *g;
-    koksma_status status = koksma_gen_open(&g, koksma_gen_find("halton"), &o, err);
+    koksma_status status;
 
+    if (strcmp(name, "kronecker") == 0) {
+        o.alpha = alpha;
+        o.alpha_size = 3;
+    }
+    status = koksma_gen_open(&g, koksma_gen_find(name), &o, err);
     if (status == KOKSMA_OK) koksma_gen_close(g);
     return status;
 }
 
+static koksma_status gen_job(koksma_error *err)
+{
+    return open_by("halton", KOKSMA_SCRAMBLE_DIGITS, err);
+}
+
 static koksma_status sobol_job(koksma_error *err)
 {
-    koksma_gen_opts o = {.dim = 3, .n = 8};
-    koksma_gen *g;
-    koksma_status status = koksma_gen_open(&g, koksma_gen_find("sobol"), &o, err);
+    return open_by("sobol", KOKSMA_SCRAMBLE_OWEN, err);
+}
 
-    if (status == KOKSMA_OK) koksma_gen_close(g);
-    return status;
+static koksma_status faure_job(koksma_error *err)
+{
+    return open_by("faure", KOKSMA_SCRAMBLE_DIGITS, err);
+}
+
+static koksma_status kronecker_job(koksma_error *err)
+{
+    return open_by("kronecker", KOKSMA_SCRAMBLE_NONE, err);
+}
+
+static koksma_status latin_job(koksma_error *err)
+{
+    return open_by("latin", KOKSMA_SCRAMBLE_NONE, err);
+}
+
+static koksma_status multijittered_job(koksma_error *err)
+{
+    return open_by("multijittered", KOKSMA_SCRAMBLE_NONE, err);
+}
+
+static koksma_status poisson_job(koksma_error *err)
+{
+    return open_by("poisson", KOKSMA_SCRAMBLE_NONE, err);
 }
 
 static koksma_status read_job(const char *text, size_t size, koksma_error *err)
@@ -309,7 +341,12 @@ START_TEST(every_allocation_may_fail)
     ck_assert_int_ge(exhaust(pairs_job), 3);
     ck_assert_int_ge(exhaust(divide_job), 8);
     ck_assert_int_ge(exhaust(gen_job), 5);
-    ck_assert_int_ge(exhaust(sobol_job), 2);
+    ck_assert_int_ge(exhaust(sobol_job), 3);
+    ck_assert_int_ge(exhaust(faure_job), 4);
+    ck_assert_int_ge(exhaust(kronecker_job), 2);
+    ck_assert_int_ge(exhaust(latin_job), 3);
+    ck_assert_int_ge(exhaust(multijittered_job), 4);
+    ck_assert_int_ge(exhaust(poisson_job), 5);
     ck_assert_int_ge(exhaust(text_job), 4);
     ck_assert_int_ge(exhaust(npy_job), 5);
     ck_assert_int_ge(exhaust(table_job), 4);

@@ -45,7 +45,36 @@ static const struct sample {
     {"hammersley", {.dim = 5, .n = 700}},
     {"hammersley",
      {.dim = 5, .n = 700, .scramble = KOKSMA_SCRAMBLE_DIGITS, .replicate = 3}},
+    {"halton", {.dim = 5, .n = 700, .scramble = KOKSMA_SCRAMBLE_SHIFT}},
+    {"halton", {.dim = 5, .n = 700, .leap = 23, .baker = true}},
     {"sobol", {.dim = 50, .n = 700}},
+    {"sobol", {.dim = 50, .n = 700, .leap = 3}},
+    {"sobol", {.dim = 9, .n = 700, .scramble = KOKSMA_SCRAMBLE_DIGITS, .seed = 4}},
+    {"sobol", {.dim = 9, .n = 700, .scramble = KOKSMA_SCRAMBLE_MATRIX}},
+    {"sobol", {.dim = 9, .n = 700, .scramble = KOKSMA_SCRAMBLE_OWEN}},
+    {"sobol", {.dim = 9, .n = 700, .scramble = KOKSMA_SCRAMBLE_SHIFT}},
+    {"grid", {.dim = 3, .n = 729, .scramble = KOKSMA_SCRAMBLE_SHIFT}},
+    {"halton", {.dim = 5, .n = 700, .scramble = KOKSMA_SCRAMBLE_OWEN}},
+    {"vandercorput", {.dim = 1, .n = 700}},
+    {"faure", {.dim = 5, .n = 700}},
+    {"faure", {.dim = 6, .n = 700, .scramble = KOKSMA_SCRAMBLE_DIGITS}},
+    {"faure", {.dim = 6, .n = 700, .scramble = KOKSMA_SCRAMBLE_OWEN, .leap = 6}},
+    {"niederreiter", {.dim = 20, .n = 700}},
+    {"niederreiter", {.dim = 20, .n = 700, .scramble = KOKSMA_SCRAMBLE_OWEN}},
+    {"richtmyer", {.dim = 5, .n = 700}},
+    {"rsequence", {.dim = 5, .n = 700, .leap = 10}},
+    {"kronecker",
+     {.dim = 2, .n = 700, .alpha = (const double[]){0.1, 2.7}, .alpha_size = 2}},
+    {"lattice",
+     {.dim = 2, .n = 700, .vector = (const uint64_t[]){1, 701}, .vector_size = 2}},
+    {"korobov",
+     {.dim = 9, .n = 700, .vector = (const uint64_t[]){33}, .vector_size = 1}},
+    {"fibonacci", {.dim = 2, .n = 610, .baker = true}},
+    {"zaremba", {.dim = 2, .n = 512}},
+    {"jittered", {.dim = 3, .n = 729}},
+    {"latin", {.dim = 3, .n = 700}},
+    {"multijittered", {.dim = 3, .n = 729}},
+    {"poisson", {.dim = 2, .n = 200, .torus = true}},
     {"random", {.dim = 3, .n = 700, .seed = 5}},
     {"grid", {.dim = 3, .n = 729}},
     {"centred", {.dim = 6, .n = 729}},
@@ -64,7 +93,7 @@ START_TEST(pieces)
                                       ((uint64_t)1 << 54) - 350,
                                       UINT64_MAX - 699};
     const struct sample *s = &samples[_i];
-    bool sequence = koksma_gen_find(s->name)->sequence;
+    bool sequence = koksma_gen_find(s->name)->takes & KOKSMA_TAKES_START;
     oracle_rng rng = oracle_rng_start(oracle_seed(), (uint64_t)_i);
     koksma_gen_opts o = s->o;
 
@@ -72,11 +101,13 @@ START_TEST(pieces)
         koksma_gen *g;
 
         o.start = starts[at];
+        if (o.leap > 1 && o.start > UINT64_MAX - o.n * o.leap)
+            o.start = UINT64_MAX - (o.n - 1) * o.leap;
         fill_all(room, s->name, o);
         for (size_t i = 0; i < o.n * o.dim; i++)
             if (!(room[i] >= 0.0 && room[i] < 1.0)) ck_abort_msg("%a", room[i]);
         g = open_family(s->name, &o);
-        for (int i = 0; i < 200; i++) {
+        for (int i = 0; i < 40; i++) {
             uint64_t first = oracle_below(&rng, (size_t)o.n + 1);
             size_t count = oracle_below(&rng, (size_t)(o.n - first) + 1);
 
@@ -89,7 +120,7 @@ START_TEST(pieces)
         }
         koksma_gen_close(g);
         if (!sequence) continue;
-        o.start += 100;
+        o.start += 100 * (o.leap > 1 ? o.leap : 1);
         o.n -= 100;
         fill_all(other, s->name, o);
         ck_assert_mem_eq(other, room + 100 * o.dim, o.n * o.dim * sizeof *room);
@@ -106,7 +137,8 @@ END_TEST
 START_TEST(seeds_and_replicates)
 {
     const struct sample *s = &samples[_i];
-    bool random = koksma_gen_find(s->name)->random || s->o.scramble != 0;
+    bool random =
+        (koksma_gen_find(s->name)->takes & KOKSMA_TAKES_SEED) || s->o.scramble != 0;
 
     for (int other_one = 0; other_one < 3; other_one++) {
         koksma_gen_opts o = s->o;
@@ -194,8 +226,8 @@ static const struct refusal {
     koksma_gen_opts o;
     const char *text;
 } refusals[] = {
-    {"sobol", {.dim = 0, .n = 1}, "dimension 0: sobol has 1 to 50"},
-    {"sobol", {.dim = 51, .n = 1}, "dimension 51: sobol has 1 to 50"},
+    {"sobol", {.dim = 0, .n = 1}, "dimension 0: sobol has 1 to 1111"},
+    {"sobol", {.dim = 1112, .n = 1}, "dimension 1112: sobol has 1 to 1111"},
     {"halton", {.dim = 0, .n = 1}, NULL},
     {"grid", {.dim = 0, .n = 1}, NULL},
     {"random", {.dim = 2, .n = 0}, "0 points: a set has at least one"},
@@ -217,9 +249,32 @@ static const struct refusal {
     {"random",
      {.dim = 1, .n = 1, .scramble = KOKSMA_SCRAMBLE_DIGITS},
      "random has no digits to scramble"},
+    {"grid",
+     {.dim = 1, .n = 1, .scramble = KOKSMA_SCRAMBLE_OWEN},
+     "grid has no digits to scramble"},
+    {"halton",
+     {.dim = 1, .n = 1, .scramble = KOKSMA_SCRAMBLE_MATRIX},
+     "halton has no matrices to scramble"},
+    {"random", {.dim = 1, .n = 1, .scramble = (koksma_scramble)9}, NULL},
+    {"hammersley",
+     {.dim = 2, .n = 4, .leap = 2},
+     "hammersley is no sequence: it has no leap"},
+    {"random",
+     {.dim = 1, .n = 3, .leap = (uint64_t)1 << 63},
+     "indices reach beyond 2^64 - 1"},
+    {"random",
+     {.dim = 1, .n = 2, .leap = UINT64_MAX, .start = 1},
+     "indices reach beyond 2^64 - 1"},
+    {"halton", {.dim = 1, .n = UINT64_MAX, .leap = UINT64_MAX}, NULL},
+    {"halton",
+     {.dim = 1, .n = 1, .leap = 6, .bases = shared},
+     "leap 6 and base 4 have a common factor"},
     {"sobol",
-     {.dim = 1, .n = 1, .scramble = KOKSMA_SCRAMBLE_DIGITS},
-     "sobol has no digits to scramble"},
+     {.dim = 1, .n = 1, .leap = 6},
+     "leap 6 and base 2 have a common factor"},
+    {"halton",
+     {.dim = 4, .n = 1, .leap = 77},
+     "leap 77 and base 7 have a common factor"},
     {"halton",
      {.dim = 2, .n = 1, .bases = base_one},
      "base 1: a base is at least 2"},
@@ -235,6 +290,67 @@ static const struct refusal {
     {"hammersley",
      {.dim = 4, .n = 1, .bases = shared},
      "bases 4 and 6 have a common factor"},
+    {"faure",
+     {.dim = 6, .n = 1, .leap = 14},
+     "leap 14 and base 7 have a common factor"},
+    {"faure", {.dim = 65522, .n = 1}, "dimension 65522: faure has 1 to 65521"},
+    {"niederreiter",
+     {.dim = 1378, .n = 1},
+     "dimension 1378: niederreiter has 1 to 1377"},
+    {"vandercorput", {.dim = 2, .n = 1}, NULL},
+    {"lattice",
+     {.dim = 2, .n = 7},
+     "lattice in dimension 2 takes a vector of 2, not of 0"},
+    {"korobov",
+     {.dim = 2, .n = 7, .vector = (const uint64_t[]){1, 2}, .vector_size = 2},
+     "korobov in dimension 2 takes a vector of 1, not of 2"},
+    {"kronecker",
+     {.dim = 3, .n = 7, .alpha = (const double[]){1, 2}, .alpha_size = 2},
+     "kronecker in dimension 3 takes a vector of 3, not of 2"},
+    {"kronecker",
+     {.dim = 1, .n = 7, .alpha = (const double[]){-0.5}, .alpha_size = 1},
+     "multiplier 1 is -0.5, not in [0, 2^53]"},
+    {"kronecker",
+     {.dim = 1, .n = 7, .alpha = (const double[]){(double)NAN}, .alpha_size = 1},
+     NULL},
+    {"sobol",
+     {.dim = 1, .n = 7, .vector = (const uint64_t[]){1}, .vector_size = 1},
+     "sobol takes no such vector"},
+    {"lattice",
+     {.dim = 1, .n = 7, .alpha = (const double[]){1}, .alpha_size = 1},
+     "lattice takes no such vector"},
+    {"zaremba", {.dim = 2, .n = 48}, "48 points are no power of 2"},
+    {"zaremba", {.dim = 1, .n = 8}, "dimension 1: zaremba is plane"},
+    {"jittered",
+     {.dim = 3, .n = 9},
+     "9 points make no grid in 3 dimensions: no m^3"},
+    {"multijittered",
+     {.dim = 2, .n = 8},
+     "8 points make no grid in 2 dimensions: no m^2"},
+    {"jittered",
+     {.dim = 1, .n = ((uint64_t)1 << 53) + 1},
+     "9007199254740993 strata: jittered has 2^53 at most"},
+    {"latin",
+     {.dim = 1, .n = (uint64_t)1 << 32},
+     "4294967296 points: latin has 2^32 - 1 at most"},
+    {"poisson",
+     {.dim = 1, .n = (uint64_t)1 << 32},
+     "4294967296 points: poisson has 2^32 - 1 at most"},
+    {"poisson", {.dim = 2, .n = 7, .radius = -0.5}, "radius -0.5: not in [0,1]"},
+    {"poisson", {.dim = 2, .n = 7, .radius = (double)NAN}, NULL},
+    {"poisson", {.dim = 1, .n = 9, .radius = 0.5}, NULL},
+    {"sobol", {.dim = 2, .n = 8, .radius = 0.1}, "sobol keeps no radius"},
+    {"random", {.dim = 2, .n = 8, .torus = true}, "random keeps no radius"},
+    {"latin",
+     {.dim = 1, .n = 8, .scramble = KOKSMA_SCRAMBLE_OWEN},
+     "latin has no digits to scramble"},
+    {"fibonacci",
+     {.dim = 2, .n = 100},
+     "100 points: 89 and 144 are Fibonacci numbers"},
+    {"fibonacci",
+     {.dim = 2, .n = UINT64_MAX},
+     "18446744073709551615 points: no Fibonacci number"},
+    {"fibonacci", {.dim = 1, .n = 5}, "dimension 1: Fibonacci lattices are plane"},
     {"grid", {.dim = 2, .n = 5}, "5 points make no grid in 2 dimensions: no m^2"},
     {"centred",
      {.dim = 3, .n = 9},
@@ -269,6 +385,10 @@ START_TEST(just_legal)
     koksma_gen_close(open_family("halton", &o));
     o = (koksma_gen_opts){.dim = 1, .n = UINT64_MAX, .start = 1};
     koksma_gen_close(open_family("random", &o));
+    o = (koksma_gen_opts){.dim = 2, .n = 2, .leap = UINT64_MAX};
+    o.bases =
+        (const uint32_t[]){2, 7}; /* 2^64 - 1 = 3 5 17 257 641 65537 6700417 */
+    koksma_gen_close(open_family("halton", &o));
     o = (koksma_gen_opts){.dim = 2, .n = 3, .bases = shared};
     koksma_gen_close(open_family("halton", &o));
     o.dim = 3;
@@ -276,6 +396,59 @@ START_TEST(just_legal)
     o = (koksma_gen_opts){.dim = SIZE_MAX, .n = 1};
     koksma_gen_close(open_family("grid", &o));
     koksma_gen_close(NULL);
+}
+END_TEST
+
+/* With a leap, the elements that are so far apart. */
+START_TEST(leaps)
+{
+    static const struct {
+        const char *name;
+        koksma_gen_opts o;
+    } tried[] = {
+        {"halton", {.dim = 4, .leap = 409}},
+        {"halton", {.dim = 3, .leap = 7, .scramble = KOKSMA_SCRAMBLE_DIGITS}},
+        {"sobol", {.dim = 7, .leap = 15}},
+        {"sobol", {.dim = 7, .leap = 301, .scramble = KOKSMA_SCRAMBLE_OWEN}},
+        {"random", {.dim = 2, .leap = 10}},
+    };
+
+    for (size_t t = 0; t < sizeof tried / sizeof *tried; t++) {
+        koksma_gen_opts o = tried[t].o, all = o;
+
+        o.n = 20;
+        o.start = 11;
+        fill_all(room, tried[t].name, o);
+        all.leap = 1;
+        all.n = 11 + 20 * o.leap;
+        fill_all(other, tried[t].name, all);
+        for (size_t i = 0; i < 20; i++)
+            ck_assert_mem_eq(room + i * o.dim, other + (11 + i * o.leap) * o.dim,
+                             o.dim * sizeof *room);
+    }
+}
+END_TEST
+
+/* x + u modulo 1 with one u for all points, in steps of 2^-53; 1 - |2x - 1|. */
+START_TEST(shifts_and_folds)
+{
+    koksma_gen_opts o = {.dim = 3, .n = 1024}, shifted = o, folded = o;
+
+    shifted.scramble = KOKSMA_SCRAMBLE_SHIFT;
+    folded.baker = true;
+    fill_all(room, "sobol", o);
+    fill_all(other, "sobol", shifted);
+    for (size_t i = 0; i < 3 * o.n; i++) {
+        double v = room[i] + other[i % 3]; /* point 0 is the origin */
+
+        ck_assert(fabs(other[i] - (v < 1.0 ? v : v - 1.0)) <= 0x1p-53);
+        ck_assert(ldexp(other[i], 53) == floor(ldexp(other[i], 53)));
+    }
+    ck_assert(other[0] != other[1] && other[1] != other[2]);
+    fill_all(other, "sobol", folded);
+    for (size_t i = 0; i < 3 * o.n; i++)
+        ck_assert(other[i] == (room[i] == 0.5 ? 1.0 - 0x1p-53
+                                              : 1.0 - fabs(2.0 * room[i] - 1.0)));
 }
 END_TEST
 
@@ -312,10 +485,11 @@ START_TEST(table_of_families)
     for (const koksma_gen_family *f = koksma_gen_families; f->name != NULL; f++) {
         ck_assert_ptr_eq(koksma_gen_find(f->name), f); /* so no name comes twice */
         ck_assert_uint_gt(strlen(f->summary), 0);
-        ck_assert_uint_ge(f->max_dim, 50);
+        ck_assert_uint_gt(strlen(f->needs), 0);
+        ck_assert_uint_ge(f->max_dim, 1);
         count++;
     }
-    ck_assert_uint_eq(count, 6);
+    ck_assert_uint_eq(count, 20);
     ck_assert_ptr_null(koksma_gen_find(""));
     ck_assert_ptr_null(koksma_gen_find("Halton"));
     ck_assert_ptr_null(koksma_gen_find("halto"));
@@ -338,6 +512,8 @@ int main(void)
     tcase_add_loop_test(tc, pieces, 0, SAMPLES);
     tcase_add_loop_test(tc, seeds_and_replicates, 0, SAMPLES);
     tcase_add_loop_test(tc, refused, 0, sizeof refusals / sizeof *refusals);
+    tcase_add_test(tc, leaps);
+    tcase_add_test(tc, shifts_and_folds);
     tcase_add_test(tc, just_legal);
     tcase_add_test(tc, refused_fills);
     return oracle_run(suite);
