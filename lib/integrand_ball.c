@@ -135,7 +135,7 @@ static koksma_meeting meets(const koksma_integrand *f, const koksma_cell_box *bo
         b = twice_off(upper, cells);
         far[k] = a > b ? a : b;
         near[k] = a < b ? a : b;
-        near[k] = (lower < cells - lower) & (upper > cells - upper) ? 0 : near[k];
+        if ((lower < cells - lower) & (upper > cells - upper)) near[k] = 0;
         v = (double)near[k] * side;
         w = (double)far[k] * side;
         nearest += v * v;
