@@ -127,10 +127,10 @@ static koksma_status check_opts(const koksma_l2_opts *opts, koksma_points p,
     if (p.dim >= (size_t)1 << 30)
         return ki_fail(err, KOKSMA_EINVAL, 0, "%zu coordinates: 2^30 are too many",
                        p.dim);
-    if (opts->method == KOKSMA_L2_DIVIDE && p.dim > KOKSMA_L2_DIVIDE_DIM)
+    if (opts->method == KOKSMA_L2_DIVIDE && p.dim > ki_l2_divide_dim(opts->kind))
         return ki_fail(err, KOKSMA_EINVAL, 0,
-                       "%zu coordinates: divide takes at most %d", p.dim,
-                       KOKSMA_L2_DIVIDE_DIM);
+                       "%zu coordinates: divide takes at most %zu of %s", p.dim,
+                       ki_l2_divide_dim(opts->kind), koksma_l2_names[opts->kind]);
     return KOKSMA_OK;
 }
 

@@ -52,8 +52,10 @@ typedef enum koksma_l2_method {
                       * and faster for many points in few dimensions */
 } koksma_l2_method;
 
-/* The most dimensions that KOKSMA_L2_DIVIDE takes. */
+/* The most dimensions that KOKSMA_L2_DIVIDE takes, and for the kinds periodic,
+ * wraparound, mixture and symmetric. */
 #define KOKSMA_L2_DIVIDE_DIM 16
+#define KOKSMA_L2_DIVIDE_DIM_TERMS 6
 
 typedef struct koksma_l2_result {
     koksma_interval value;   /* L2 lies in [value.lower, value.upper] */

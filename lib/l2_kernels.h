@@ -77,6 +77,8 @@ ki_l2_number ki_l2_flushed(koksma_points p, koksma_l2_kind kind);
 typedef koksma_status ki_l2_method(ki_l2_number *sum, ki_l2_job *job);
 ki_l2_method ki_l2_pairs;
 ki_l2_method ki_l2_divide;
+/* The most coordinates that it takes. */
+size_t ki_l2_divide_dim(koksma_l2_kind kind);
 
 /* What pairs does at once: a block of rows against a panel of columns.  A panel
  * holds KI_L2_PANEL points, for each coordinate so many first numbers and, where
