@@ -36,8 +36,9 @@
 enum {
     LEVELS = 6,
     LEAF = 2048,
-    BLOCK = 256
-}; /* tasks: 2^(LEVELS+1) - 1, of LEAF points at least */
+    BLOCK = 256,
+    AHEAD = 16
+}; /* tasks: 2^(LEVELS+1) - 1, of LEAF points at least; weights; prefetches */
 
 typedef struct divide {
     ki_l2_job *job;
@@ -45,7 +46,8 @@ typedef struct divide {
     size_t levels; /* of cuts with a task each; below, a task a part */
     ki_l2_key *key;
     uint32_t **by;    /* by[k][j]: the point of rank j along axis k */
-    uint32_t **rank;  /* and its inverse */
+    uint32_t **rank;  /* and its inverse, of axes from 1 on */
+    uint32_t *last;   /* the items' ranks along the last axis */
     uint32_t **order; /* items by level: in parts, each by coordinate 0 */
     ki_l2_slot *item; /* the points, by their first coordinate with a core */
     ki_l2_worker *worker;
@@ -76,7 +78,7 @@ static void rank_points(divide *s, size_t k)
     sorted = ki_l2_sort(s->key, s->key + p.n, p.n);
     for (size_t j = 0; j < p.n; j++) {
         s->by[k][j] = (uint32_t)sorted[j].point;
-        s->rank[k][sorted[j].point] = (uint32_t)j;
+        if (k > 0) s->rank[k][sorted[j].point] = (uint32_t)j;
     }
 }
 
@@ -92,7 +94,7 @@ static size_t begin_of(size_t n, size_t parts, size_t j)
 /* One level's order from the one above: parts are cut in two, stably. */
 static void refine(divide *s, size_t level)
 {
-    size_t n = s->job->p.n, parts = (size_t)1 << level, stride = s->worker->stride;
+    size_t n = s->job->p.n, parts = (size_t)1 << level;
 
     for (size_t j = 0; j < parts / 2; j++) {
         size_t begin = begin_of(n, parts, 2 * j);
@@ -101,9 +103,8 @@ static void refine(divide *s, size_t level)
 
         for (size_t i = begin; i < end; i++) {
             uint32_t item = s->order[level - 1][i];
-            bool high = *ki_l2_rank(s->item + item * stride, s->axes - 1) >= cut;
 
-            s->order[level][to[high]++] = item;
+            s->order[level][to[s->last[item] >= cut]++] = item;
         }
     }
 }
@@ -118,12 +119,15 @@ static void arrange(divide *s)
         s->worker[i].stride = stride;
     }
     for (size_t j = 0; j < p.n; j++) {
-        size_t point = s->by[s->axis[0]][j];
+        const uint32_t *by = s->by[s->axis[0]];
+        size_t point = by[j], ahead = by[j + AHEAD < p.n ? j + AHEAD : j];
         ki_l2_slot *item = s->item + j * stride;
 
+        __builtin_prefetch(p.x + ahead * p.dim);
+        __builtin_prefetch(s->rank[s->axis[1]] + ahead);
         item[KI_L2_RANKS].rank[0] = 0;
         for (size_t k = 1; k < s->axes; k++)
-            *ki_l2_rank(item, k) = s->rank[s->axis[k]][point];
+            *ki_l2_rank(item, k) = s->last[j] = s->rank[s->axis[k]][point];
         item += ki_l2_coordinates(s->axes);
         for (size_t k = 0; k < s->axes; k++)
             item[k].x = p.x[point * p.dim + s->axis[k]];
@@ -158,8 +162,12 @@ static ki_l2_list gather(const divide *s, ki_l2_slot *to, size_t level, size_t j
     size_t end = begin_of(n, (size_t)1 << level, j + 1), stride = s->worker->stride;
     ki_l2_list l = {to, end - begin, 0, (uint32_t)begin, (uint32_t)end, false};
 
-    for (size_t i = begin; i < end; i++, to += stride)
+    for (size_t i = begin; i < end; i++, to += stride) {
+        size_t ahead = i + AHEAD < end ? i + AHEAD : i;
+
+        __builtin_prefetch(s->item + s->order[level][ahead] * stride);
         ki_l2_copy(to, s->item + s->order[level][i] * stride, stride);
+    }
     return l;
 }
 
@@ -358,11 +366,13 @@ static bool make(divide *s)
     s->by = tables(p.dim, p.n);
     s->rank = tables(p.dim, p.n);
     s->order = tables(s->levels + 1, p.n);
+    s->last = ki_alloc(p.n, sizeof *s->last);
     s->sum = calloc(tasks, sizeof *s->sum);
     s->loss = calloc(tasks, sizeof *s->loss);
     s->worker = calloc(threads, sizeof *s->worker);
     if (s->key == NULL || s->item == NULL || s->by == NULL || s->rank == NULL ||
-        s->order == NULL || s->sum == NULL || s->loss == NULL || s->worker == NULL)
+        s->order == NULL || s->last == NULL || s->sum == NULL || s->loss == NULL ||
+        s->worker == NULL)
         return false;
     for (size_t i = 0; i < threads; i++) {
         s->worker[i].core = s->terms->core;
@@ -387,6 +397,7 @@ koksma_status ki_l2_divide(ki_l2_number *sum, ki_l2_job *job)
     for (size_t i = 0; s.worker != NULL && i < ki_team_threads(job->team); i++)
         free(s.worker[i].spare);
     free(s.worker);
+    free(s.last);
     free(s.sum);
     free(s.loss);
     return made ? KOKSMA_OK : KOKSMA_ENOMEM;

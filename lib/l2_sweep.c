@@ -171,22 +171,32 @@ typedef struct columns {
     double hi[COLUMN], lo[COLUMN], x[KOKSMA_L2_DIVIDE_DIM][COLUMN];
 } columns;
 
+/* A weight of 0 in the lanes behind. */
 KI_L2_INLINE void put(columns *c, size_t i, const ki_l2_slot *item, size_t at,
                       size_t axes)
 {
+    for (size_t j = i; i % LANES == 0 && j < i + LANES; j++) {
+        c->hi[j] = c->lo[j] = 0.0;
+        for (size_t k = 0; k < axes; k++)
+            c->x[k][j] = 0.0;
+    }
     c->hi[i] = item[0].x;
     c->lo[i] = item[1].x;
     for (size_t k = 0; k < axes; k++)
         c->x[k][i] = item[at + k].x;
 }
 
-/* The pairs of an item and the first n of the columns, up to a multiple of LANES,
- * where the weights behind them are 0. */
-KI_L2_INLINE ki_twice meet(ki_l2_core core, const columns *c, size_t n,
-                           const ki_l2_slot *item, size_t at, size_t axes)
+typedef struct lanes {
+    double sum[LANES], rest[LANES];
+} lanes;
+
+/* Add the pairs of an item and the first n of the columns, up to a multiple of
+ * LANES, where the weights behind them are 0. */
+KI_L2_INLINE void meet(ki_l2_core core, lanes *all, const columns *c, size_t n,
+                       const ki_l2_slot *item, size_t at, size_t axes)
 {
     double sum[LANES] = {0.0}, rest[LANES] = {0.0};
-    ki_twice all = {0.0, 0.0};
+    ki_twice own = weight(item);
 
     for (size_t i = 0; i < n; i += LANES)
         for (size_t j = 0; j < LANES; j++) {
@@ -198,16 +208,12 @@ KI_L2_INLINE ki_twice meet(ki_l2_core core, const columns *c, size_t n,
             sum[j] = ki_two_sum(sum[j], v.hi, &r);
             rest[j] += r + v.lo;
         }
-    for (size_t j = 0; j < LANES; j++)
-        all = ki_twice_add(all, ki_twice_sum(sum[j], rest[j]));
-    return ki_twice_times(all, weight(item));
-}
+    for (size_t j = 0; j < LANES; j++) {
+        ki_twice v = ki_twice_times(ki_twice_sum(sum[j], rest[j]), own);
+        double r, total = ki_two_sum(all->sum[j], v.hi, &r);
 
-KI_L2_INLINE void clear(columns *c, size_t axes)
-{
-    memset(c->hi, 0, sizeof c->hi);
-    memset(c->lo, 0, sizeof c->lo);
-    memset(c->x, 0, axes * sizeof c->x[0]);
+        all->sum[j] = ki_two_sum(total, all->rest[j] + (r + v.lo), &all->rest[j]);
+    }
 }
 
 /* Items of side 0 in columns against those of side 1, or all of a block of items
@@ -215,29 +221,29 @@ KI_L2_INLINE void clear(columns *c, size_t axes)
 KI_L2_INLINE void brute(ki_l2_core core, ki_l2_worker *w, size_t axes, ki_l2_list l)
 {
     size_t at = ki_l2_coordinates(w->axes), stride = w->stride;
-    ki_twice_total all = {0.0, 0.0, 0};
+    lanes all = {{0.0}, {0.0}};
     columns c;
 
     for (size_t begin = 0, end; begin < l.n; begin = end) {
         size_t n = 0;
 
-        clear(&c, axes);
         for (end = begin; end < l.n && n < COLUMN; end++) {
             const ki_l2_slot *item = l.item + end * stride;
 
             if (l.across && item[KI_L2_RANKS].rank[0] != 0) continue;
-            if (!l.across && n > 0)
-                ki_twice_total_add(&all, meet(core, &c, n, item, at, axes));
+            if (!l.across && n > 0) meet(core, &all, &c, n, item, at, axes);
             put(&c, n++, item, at, axes);
         }
-        for (size_t i = l.across ? 0 : end; i < l.n; i++) {
+        for (size_t i = l.across ? 0 : end; n > 0 && i < l.n; i++) {
             const ki_l2_slot *item = l.item + i * stride;
 
             if (l.across && item[KI_L2_RANKS].rank[0] == 0) continue;
-            ki_twice_total_add(&all, meet(core, &c, n, item, at, axes));
+            meet(core, &all, &c, n, item, at, axes);
         }
     }
-    ki_twice_total_add(&w->sum, ki_twice_total_value(&all));
+    for (size_t j = 0; j < LANES; j++)
+        ki_twice_total_add(&w->sum, ki_twice_sum(all.sum[j], all.rest[j]));
+    w->added += LANES;
     ki_l2_count(w, (double)l.n + (double)(l.n / COLUMN) * (double)l.n,
                 l.across ? (double)l.ones * (double)(l.n - l.ones)
                          : 0.5 * (double)l.n * (double)l.n);
