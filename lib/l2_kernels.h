@@ -48,8 +48,7 @@ typedef struct ki_l2_row {
     int arrays; /* numbers a coordinate that pairs works with */
     int ulps;   /* k from these is off by at most so many times 2^-53, relatively */
     int chunk;  /* so many factors multiply without leaving [2^-900, 2^900] */
-    int rank;   /* terms f_r(x) g_r(y) that k has for x <= y */
-    double most; /* sum of the |f_r(x) g_r(y)| */
+    int terms;  /* of divide, besides its core: l2_terms.c */
 } ki_l2_row;
 extern const ki_l2_row ki_l2_rows[KOKSMA_L2_KINDS];
 
