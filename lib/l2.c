@@ -97,18 +97,19 @@ static void conclude(koksma_l2_result *r, ki_l2_number v)
 /* ---- The public function --------------------------------------------------------
  */
 
-/* Where divide is faster with one thread, about, by its rank. */
+/* From how many points on divide is faster with one thread, about, by its terms and
+ * the dimension; measured on Halton points. */
 static koksma_l2_method choose(const koksma_l2_opts *opts, koksma_points p)
 {
     static const double FROM[4][6] = {
-        [1] = {0.0, 0.0, 2e3, 5e3, 2e4, 6e4},
-        [2] = {0.0, 0.0, 3e3, 3e4, 3e5, 4e6},
-        [3] = {0.0, 0.0, 5e3, 2e5, 4e6, 1e9},
+        [0] = {0.0, 0.0, 4e3, 1e4, 3e4, 2e5},
+        [2] = {0.0, 0.0, 5e3, 1e4, 8e4, 1e6},
+        [3] = {0.0, 0.0, 5e3, 2e4, 2e5, 4e6},
     };
 
     if (opts->method != KOKSMA_L2_AUTO) return opts->method;
     if (p.dim > 5) return KOKSMA_L2_PAIRS;
-    return (double)p.n >= FROM[ki_l2_rows[opts->kind].rank][p.dim]
+    return (double)p.n >= FROM[ki_l2_rows[opts->kind].terms][p.dim]
                ? KOKSMA_L2_DIVIDE
                : KOKSMA_L2_PAIRS;
 }
@@ -127,10 +128,10 @@ static koksma_status check_opts(const koksma_l2_opts *opts, koksma_points p,
     if (p.dim >= (size_t)1 << 30)
         return ki_fail(err, KOKSMA_EINVAL, 0, "%zu coordinates: 2^30 are too many",
                        p.dim);
-    if (opts->method == KOKSMA_L2_DIVIDE && p.dim > KOKSMA_L2_DIVIDE_DIM)
+    if (opts->method == KOKSMA_L2_DIVIDE && p.dim > ki_l2_divide_dim(opts->kind))
         return ki_fail(err, KOKSMA_EINVAL, 0,
-                       "%zu coordinates: divide takes at most %d", p.dim,
-                       KOKSMA_L2_DIVIDE_DIM);
+                       "%zu coordinates: divide takes at most %zu of %s", p.dim,
+                       ki_l2_divide_dim(opts->kind), koksma_l2_names[opts->kind]);
     return KOKSMA_OK;
 }
 

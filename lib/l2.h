@@ -52,8 +52,10 @@ typedef enum koksma_l2_method {
                       * and faster for many points in few dimensions */
 } koksma_l2_method;
 
-/* The most dimensions that KOKSMA_L2_DIVIDE takes. */
+/* The most dimensions that KOKSMA_L2_DIVIDE takes, and for the kinds periodic,
+ * wraparound, mixture and symmetric. */
 #define KOKSMA_L2_DIVIDE_DIM 16
+#define KOKSMA_L2_DIVIDE_DIM_TERMS 6
 
 typedef struct koksma_l2_result {
     koksma_interval value;   /* L2 lies in [value.lower, value.upper] */
@@ -91,11 +93,11 @@ typedef struct koksma_l2_opts {
  * Returns: KOKSMA_OK; KOKSMA_STOPPED when progress said so: the intervals are then
  *          [0, HUGE_VAL] and the like; KOKSMA_EINVAL or KOKSMA_EDOMAIN as
  *          koksma_points_check, and for options out of range; KOKSMA_ENOMEM
- * Cost:    pairs: dim n^2, memory n*dim; divide: n (log n)^dim, times 2^(dim-1) for
- *          symmetric and 3^(dim-1) for periodic, wraparound and mixture; memory
- *          n*dim times the threads
- * Source:  pairs: [Warnock 1972]; divide: after [Heinrich 1996], who cuts along one
- *          axis after the other; lib/l2_divide.c proves it */
+ * Cost:    pairs: dim n^2, memory n*dim; divide: n (log n)^(dim-1), and for
+ *          symmetric, periodic, wraparound and mixture also n (log n)^(m-1) for
+ * each choice of m coordinates, times 2^(dim-m) or 3^(dim-m); memory n*dim times
+ * the threads Source:  pairs: [Warnock 1972]; divide: after [Heinrich 1996], who
+ * cuts along one axis after the other; lib/l2_divide.c proves it */
 koksma_status koksma_l2(koksma_l2_result *out, koksma_points p,
                         const koksma_l2_opts *opts, koksma_error *err);
 

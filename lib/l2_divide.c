@@ -6,56 +6,84 @@
 
 /* The sum over all pairs by divide and conquer, after [Heinrich 1996].
  *
- * For x <= y, k(x,y) is a sum of few products f_r(x) g_r(y).  Cut the points in two
- * along the last axis, low and high.  Pairs inside of either half are the same task
- * again.  For a pair across the cut, the factor of the last axis is a sum of
- * products f_r(low) g_r(high): these multiply the weights of the points, and the
- * task has an axis less, now with two lists.  There each list is cut at the same
- * place, and so on; with one axis left both lists are walked in their common order,
- * with running sums of w f_r over what was passed.
+ * k(x,y) is a sum of products f_r(x) f_r(y) and of a core, which for x <= y is a
+ * product too, first(x) second(y).  Multiplied out over the coordinates, K is a sum
+ * of terms with a core along some axes and f along the others.  The f are weights
+ * of the points.
+ *
+ * For the cores, cut the points in two along the last of their axes, low and high.
+ * Pairs inside of either half are the same task again.  For a pair across the cut
+ * the factor of that axis is first(low) second(high): the weights take it in, and
+ * the task has an axis less, now for pairs of two sides.  And so on; with one axis
+ * left, the points are walked in its order with running sums over what was passed.
  *
  * Cuts go by ranks, which are all different, so that ties are cut as well; where
- * x = y, f_r(x) g_r(y) and f_r(y) g_r(x) sum up to the same.
+ * x = y, first(x) second(y) and first(y) second(x) are the same.
  *
- * The order of all additions follows from the points alone: the tasks are the nodes
- * of the first levels of cuts along the last axis, whose number n decides, and
- * their sums are added in order.
+ * The order of all additions follows from the points alone: for each term the tasks
+ * are the nodes of the first levels of cuts along the last axis, whose number n
+ * decides, and their sums are added in order.
  *
- * Roundings.  Written out, what is computed is a sum over pairs of products w f g
- * ... whose absolute values sum up to at most most^dim a pair.  Each of them has
- * gone through at most 8 operations a coordinate, which are off by less than 2^-103
- * of it (or of 2, where f or g cancels: counted four times), and has been added to
- * running sums with no more steps in all than w->steps: 36 2^-106 each. */
+ * Roundings.  Let a pair's product have an absolute value of at most `most`, for
+ * its term.  It has gone through at most four operations a coordinate of either
+ * point, off by 2^-103 of it each, and has taken in f, off by 2^-101: with those of
+ * the total, less than (dim + 1) 2^-98 in all.  A loop over m items adds products
+ * of at most `pairs` pairs, through running sums and one over all, m steps each,
+ * which lose at most 36 m 2^-106 pairs most each: w->loss sums (72 m + 128) pairs
+ * up, with the 128 for those of the lanes and of short sums.  The sums of the loops
+ * are w->added numbers, which lose 36 2^-106 of all pairs of the task for each. */
 
 enum {
     LEVELS = 6,
-    LEAF = 2048
-}; /* tasks: 2^(LEVELS+1) - 1, of LEAF points at least */
+    LEAF = 2048,
+    BLOCK = 256,
+    AHEAD = 16
+}; /* tasks: 2^(LEVELS+1) - 1, of LEAF points at least; weights; prefetches */
 
 typedef struct divide {
     ki_l2_job *job;
+    const ki_l2_terms *terms;
     size_t levels; /* of cuts with a task each; below, a task a part */
-    size_t stride;
-    ki_l2_key *key;   /* twice as many as points */
-    double *item;     /* the points, sorted by coordinate 0 */
-    uint32_t *place;  /* where in there point i is */
+    ki_l2_key *key;
+    uint32_t **by;    /* by[k][j]: the point of rank j along axis k */
+    uint32_t **rank;  /* and its inverse, of axes from 1 on */
+    uint32_t *last;   /* the items' ranks along the last axis */
     uint32_t **order; /* items by level: in parts, each by coordinate 0 */
+    ki_l2_slot *item; /* the points, by their first coordinate with a core */
     ki_l2_worker *worker;
     ki_twice *sum; /* of each task */
-    double steps;
+    double *loss;
+    ki_l2_call call;
+    size_t axes, axis[KOKSMA_L2_DIVIDE_DIM]; /* those with a core */
+    ki_twice all;
+    double error;
 } divide;
 
-/* The points in the order of coordinate k, ties in that of their indices. */
-static const ki_l2_key *sort(ki_l2_key *key, koksma_points p, size_t k)
+static size_t tasks_of(const divide *s)
 {
+    return s->axes < 2 ? 1 : ((size_t)2 << s->levels) - 1;
+}
+
+static void rank_points(divide *s, size_t k)
+{
+    koksma_points p = s->job->p;
+    const ki_l2_key *sorted;
+
     for (size_t i = 0; i < p.n; i++) {
         double x = p.x[i * p.dim + k] + 0.0; /* -0 is 0 */
 
-        memcpy(&key[i].bits, &x, sizeof x);
-        key[i].point = i;
+        memcpy(&s->key[i].bits, &x, sizeof x);
+        s->key[i].point = i;
     }
-    return ki_l2_sort(key, key + p.n, p.n);
+    sorted = ki_l2_sort(s->key, s->key + p.n, p.n);
+    for (size_t j = 0; j < p.n; j++) {
+        s->by[k][j] = (uint32_t)sorted[j].point;
+        if (k > 0) s->rank[k][sorted[j].point] = (uint32_t)j;
+    }
 }
+
+/* ---- The items of one choice of axes -------------------------------------------
+ */
 
 /* Part j of a level with `parts` parts begins at this rank along the last axis. */
 static size_t begin_of(size_t n, size_t parts, size_t j)
@@ -66,77 +94,85 @@ static size_t begin_of(size_t n, size_t parts, size_t j)
 /* One level's order from the one above: parts are cut in two, stably. */
 static void refine(divide *s, size_t level)
 {
-    koksma_points p = s->job->p;
-    size_t parts = (size_t)1 << level, at = s->stride - 1; /* of the last rank */
+    size_t n = s->job->p.n, parts = (size_t)1 << level;
 
     for (size_t j = 0; j < parts / 2; j++) {
-        size_t begin = begin_of(p.n, parts, 2 * j);
-        size_t cut = begin_of(p.n, parts, 2 * j + 1);
-        size_t end = begin_of(p.n, parts, 2 * j + 2), low = begin, high = cut;
+        size_t begin = begin_of(n, parts, 2 * j);
+        size_t cut = begin_of(n, parts, 2 * j + 1);
+        size_t end = begin_of(n, parts, 2 * j + 2), to[2] = {begin, cut};
 
         for (size_t i = begin; i < end; i++) {
-            uint32_t point = s->order[level - 1][i];
-            bool below = s->item[point * s->stride + at] < (double)cut;
+            uint32_t item = s->order[level - 1][i];
 
-            s->order[level][below ? low++ : high++] = point;
+            s->order[level][to[s->last[item] >= cut]++] = item;
         }
     }
 }
 
-static void prepare(divide *s)
+static void arrange(divide *s)
 {
     koksma_points p = s->job->p;
-    const ki_l2_key *sorted = sort(s->key, p, 0);
+    size_t stride = ki_l2_coordinates(s->axes) + s->axes;
 
-    for (size_t i = 0; i < p.n; i++) {
-        double *item = s->item + i * s->stride;
-
-        item[0] = 1.0;
-        item[1] = 0.0;
-        memcpy(item + KI_L2_ITEM, p.x + sorted[i].point * p.dim,
-               p.dim * sizeof *item);
-        s->place[sorted[i].point] = s->order[0][i] = (uint32_t)i;
+    for (size_t i = 0; i < ki_team_threads(s->job->team); i++) {
+        s->worker[i].axes = s->axes;
+        s->worker[i].stride = stride;
     }
-    for (size_t k = 1; k < p.dim; k++) {
-        sorted = sort(s->key, p, k);
-        for (size_t i = 0; i < p.n; i++)
-            s->item[s->place[sorted[i].point] * s->stride + KI_L2_ITEM + p.dim + k -
-                    1] = (double)i;
+    for (size_t j = 0; j < p.n; j++) {
+        const uint32_t *by = s->by[s->axis[0]];
+        size_t point = by[j], ahead = by[j + AHEAD < p.n ? j + AHEAD : j];
+        ki_l2_slot *item = s->item + j * stride;
+
+        __builtin_prefetch(p.x + ahead * p.dim);
+        __builtin_prefetch(s->rank[s->axis[1]] + ahead);
+        item[KI_L2_RANKS].rank[0] = 0;
+        for (size_t k = 1; k < s->axes; k++)
+            *ki_l2_rank(item, k) = s->last[j] = s->rank[s->axis[k]][point];
+        item += ki_l2_coordinates(s->axes);
+        for (size_t k = 0; k < s->axes; k++)
+            item[k].x = p.x[point * p.dim + s->axis[k]];
+        s->order[0][j] = (uint32_t)j;
     }
     for (size_t level = 1; level <= s->levels; level++)
         refine(s, level);
 }
 
+static void weigh_items(divide *s)
+{
+    size_t n = s->job->p.n, stride = s->worker->stride;
+    ki_twice weight[BLOCK];
+
+    for (size_t j = 0; j < n; j += BLOCK) {
+        size_t count = n - j < BLOCK ? n - j : BLOCK;
+
+        ki_l2_weigh(&s->call, s->job->p.x, s->by[s->axis[0]] + j, count, weight);
+        for (size_t i = 0; i < count; i++) {
+            s->item[(j + i) * stride].x = weight[i].hi;
+            s->item[(j + i) * stride + 1].x = weight[i].lo;
+        }
+    }
+}
+
+/* ---- Tasks ------------------------------------------------------------------- */
+
 /* The list of part j of a level. */
-static ki_l2_list gather(const divide *s, double *to, size_t level, size_t j)
+static ki_l2_list gather(const divide *s, ki_l2_slot *to, size_t level, size_t j)
 {
     size_t n = s->job->p.n, begin = begin_of(n, (size_t)1 << level, j);
-    size_t end = begin_of(n, (size_t)1 << level, j + 1);
-    ki_l2_list l = {to, end - begin};
+    size_t end = begin_of(n, (size_t)1 << level, j + 1), stride = s->worker->stride;
+    ki_l2_list l = {to, end - begin, 0, (uint32_t)begin, (uint32_t)end, false};
 
-    for (size_t i = begin; i < end; i++, to += s->stride)
-        ki_l2_copy(to, s->item + s->order[level][i] * s->stride, s->stride);
+    for (size_t i = begin; i < end; i++, to += stride) {
+        size_t ahead = i + AHEAD < end ? i + AHEAD : i;
+
+        __builtin_prefetch(s->item + s->order[level][ahead] * stride);
+        ki_l2_copy(to, s->item + s->order[level][i] * stride, stride);
+    }
     return l;
 }
 
-/* A worker's room, made when it first has a task: the list, as many items to spare,
- * and copies for each axis but the first two. */
-static bool make_room(const divide *s, ki_l2_worker *w, size_t n)
+static void work_on_part(const divide *s, ki_l2_worker *w, size_t task)
 {
-    size_t items, size;
-
-    if (__builtin_mul_overflow(n, s->job->p.dim + 1, &items) ||
-        __builtin_mul_overflow(items, w->stride, &size))
-        return false;
-    free(w->spare);
-    w->spare = ki_alloc(size, sizeof *w->spare);
-    return w->spare != NULL;
-}
-
-static void work_on(void *state, size_t worker, size_t task)
-{
-    divide *s = state;
-    ki_l2_worker *w = &s->worker[worker];
     size_t n = s->job->p.n, level = 0, parts = 1, first = 0;
 
     while (task >= first + parts) {
@@ -145,34 +181,140 @@ static void work_on(void *state, size_t worker, size_t task)
         level++;
     }
 
-    double before = w->steps;
-    double *item = w->spare + n * w->stride;
+    ki_l2_slot *item = w->spare + n * w->stride;
     ki_l2_list l = gather(s, item, level, task - first);
 
-    w->sum = (ki_twice_total){0.0, 0.0, 0};
     w->copies = item + l.n * w->stride;
     if (level == s->levels)
-        ki_l2_within(w, l);
+        ki_l2_solve(w, s->axes, l);
     else
-        ki_l2_apart(w, l, (double)begin_of(n, parts * 2, 2 * (task - first) + 1));
-    s->sum[task] = ki_twice_total_value(&w->sum);
-    ki_l2_report(s->job, w->steps - before);
+        ki_l2_apart(w, s->axes, l,
+                    (uint32_t)begin_of(n, parts * 2, 2 * (task - first) + 1));
+    w->loss += 36.0 * w->added * 0.5 * (double)l.n * (double)l.n;
 }
 
-/* The pairs of a point with itself. */
-static ki_twice diagonal(divide *s, ki_l2_worker *w)
+/* All pairs of all points, with one axis or none. */
+static void work_on_line(const divide *s, ki_l2_worker *w)
 {
-    double item[KI_L2_ITEM + KOKSMA_L2_DIVIDE_DIM] = {1.0, 0.0};
     koksma_points p = s->job->p;
+    const uint32_t *by = s->by[s->axes == 0 ? 0 : s->axis[0]];
+    ki_twice_total before = {0.0, 0.0, 0};
+    ki_twice weight[BLOCK];
+    double x[BLOCK];
+
+    for (size_t j = 0; j < p.n; j += BLOCK) {
+        size_t count = p.n - j < BLOCK ? p.n - j : BLOCK;
+
+        ki_l2_weigh(&s->call, p.x, by + j, count, weight);
+        for (size_t i = 0; s->axes > 0 && i < count; i++)
+            x[i] = p.x[by[j + i] * p.dim + s->axis[0]];
+        ki_l2_loops_of[w->core].pass(w, &before, s->axes > 0 ? x : NULL, weight,
+                                     count);
+    }
+    ki_l2_count(w, (double)p.n, 0.5 * (double)p.n * (double)p.n);
+}
+
+static void work_on(void *state, size_t worker, size_t task)
+{
+    divide *s = state;
+    ki_l2_worker *w = &s->worker[worker];
 
     w->sum = (ki_twice_total){0.0, 0.0, 0};
-    for (size_t i = 0; i < p.n; i++) {
-        for (size_t k = 0; k < p.dim; k++)
-            item[KI_L2_ITEM + k] = p.x[i * p.dim + k];
-        ki_l2_brute(w, p.dim, (ki_l2_list){item, 1}, (ki_l2_list){item, 1});
-    }
-    return ki_twice_total_value(&w->sum);
+    w->added = w->loss = w->steps = 0.0;
+    if (s->axes < 2)
+        work_on_line(s, w);
+    else
+        work_on_part(s, w, task);
+    s->sum[task] = ki_twice_total_value(&w->sum);
+    s->loss[task] = w->loss;
+    ki_l2_report(s->job, w->steps);
 }
+
+/* ---- Terms ------------------------------------------------------------------- */
+
+static void solve_call(divide *s)
+{
+    size_t tasks = tasks_of(s);
+    double n = (double)s->job->p.n, dim = (double)s->job->p.dim, loss = 0.0;
+    ki_twice sum = {0.0, 0.0};
+
+    if (s->axes >= 2) weigh_items(s);
+    ki_team_run(s->job->team, tasks, work_on, s);
+    for (size_t i = 0; i < tasks; i++) {
+        sum = ki_twice_add(sum, s->sum[i]);
+        loss += s->loss[i];
+    }
+
+    /* Adding tasks and calls up: less than 8 2^-106 of all pairs each. */
+    loss += (256.0 * (dim + 2.0) + 8.0 * (double)tasks) * 0.5 * n * n;
+    s->all = ki_twice_add(s->all, ki_twice_by(sum, s->call.times));
+    s->error += loss * s->call.most;
+}
+
+/* Set the terms of the axes without a core from the digits of a number. */
+static void choose_terms(divide *s, size_t digits)
+{
+    static const double MOST[KI_L2_CORES] = {1.0, 1.0, 1.5, 1.0};
+    const ki_l2_terms *t = s->terms;
+
+    s->call.times = s->call.most = 1.0;
+    for (size_t k = 0; k < s->call.dim; k++) {
+        signed char *r = &s->call.term[k];
+
+        if (*r >= 0) {
+            *r = (signed char)(digits % (size_t)t->count);
+            digits /= (size_t)t->count;
+        }
+        s->call.times *= *r < 0 ? t->times : t->sign[(int)*r];
+        s->call.most *=
+            *r < 0 ? fabs(t->times) * MOST[t->core]
+                   : fabs(t->sign[(int)*r]) * t->most[(int)*r] * t->most[(int)*r];
+    }
+}
+
+/* The terms with cores along the axes whose bits are set. */
+static void solve_axes(divide *s, size_t set)
+{
+    size_t choices = 1;
+
+    s->axes = 0;
+    for (size_t k = 0; k < s->call.dim; k++) {
+        bool core = (set >> k & 1) != 0;
+
+        s->call.term[k] = core ? -1 : 0;
+        if (core)
+            s->axis[s->axes++] = k;
+        else
+            choices *= (size_t)s->terms->count;
+    }
+    if (choices == 0) return;
+    if (s->axes >= 2) arrange(s);
+    for (size_t j = 0; j < choices && !ki_team_stopped(s->job->team); j++) {
+        choose_terms(s, j);
+        solve_call(s);
+    }
+}
+
+static ki_l2_number solve(divide *s)
+{
+    koksma_points p = s->job->p;
+    double n = (double)p.n, dim = (double)p.dim;
+    ki_twice own = ki_l2_own(s->job->kind, p);
+
+    for (size_t k = 0; k < p.dim; k++)
+        rank_points(s, k);
+    for (size_t set = (size_t)1 << p.dim; set-- > 0;)
+        solve_axes(s, set);
+
+    /* Each k(x,x) is below 2, and off by less than 2^-102 of it. */
+    s->error =
+        2.0 * s->error + ldexp(n * (36.0 * n + 256.0 * (dim + 2.0)), (int)p.dim);
+    s->error = s->error * 0x1p-106 * (1.0 + 0x1p-20) + n * n * 0x1p-900;
+    return (ki_l2_number){ki_twice_add(own, ki_twice_scale(s->all, 2.0)), s->error,
+                          0};
+}
+
+/* ---- Room -------------------------------------------------------------------- */
 
 static uint32_t **tables(size_t count, size_t n)
 {
@@ -196,6 +338,21 @@ static void free_tables(uint32_t **t, size_t count)
     free(t);
 }
 
+/* A worker's room: the list, as many items to spare, and copies for each axis but
+ * the first two. */
+static bool make_room(divide *s, ki_l2_worker *w, size_t n)
+{
+    size_t dim = s->job->p.dim, items, size;
+
+    w->core = s->terms->core;
+    if (dim < 2) return true;
+    if (__builtin_mul_overflow(n, dim, &items) ||
+        __builtin_mul_overflow(items, ki_l2_coordinates(dim) + dim, &size))
+        return false;
+    w->spare = ki_alloc(size, sizeof *w->spare);
+    return w->spare != NULL;
+}
+
 static bool make(divide *s)
 {
     koksma_points p = s->job->p;
@@ -204,70 +361,44 @@ static bool make(divide *s)
     while (p.dim > 1 && s->levels < LEVELS && p.n >> s->levels >= 2 * LEAF)
         s->levels++;
     tasks = ((size_t)2 << s->levels) - 1;
-    s->stride = KI_L2_ITEM + 2 * p.dim - 1;
     s->key = ki_alloc(p.n, 2 * sizeof *s->key);
-    s->item = ki_alloc(p.n, s->stride * sizeof *s->item);
-    s->place = ki_alloc(p.n, sizeof *s->place);
+    s->item = ki_alloc(p.n, (ki_l2_coordinates(p.dim) + p.dim) * sizeof *s->item);
+    s->by = tables(p.dim, p.n);
+    s->rank = tables(p.dim, p.n);
     s->order = tables(s->levels + 1, p.n);
+    s->last = ki_alloc(p.n, sizeof *s->last);
     s->sum = calloc(tasks, sizeof *s->sum);
+    s->loss = calloc(tasks, sizeof *s->loss);
     s->worker = calloc(threads, sizeof *s->worker);
-    if (s->key == NULL || s->item == NULL || s->place == NULL || s->order == NULL ||
-        s->sum == NULL || s->worker == NULL)
+    if (s->key == NULL || s->item == NULL || s->by == NULL || s->rank == NULL ||
+        s->order == NULL || s->last == NULL || s->sum == NULL || s->loss == NULL ||
+        s->worker == NULL)
         return false;
-    for (size_t i = 0; i < threads && i < tasks; i++) {
-        ki_l2_worker *w = &s->worker[i];
-
-        w->kind = s->job->kind;
-        w->dim = p.dim;
-        w->stride = s->stride;
-        if (!make_room(s, w, p.n)) return false;
+    for (size_t i = 0; i < threads; i++) {
+        s->worker[i].core = s->terms->core;
+        if (i < tasks && !make_room(s, &s->worker[i], p.n)) return false;
     }
     return true;
 }
 
-/* See above.  The sums of the tasks, twice, and the diagonal are 300 more. */
-static double error_of(const divide *s)
-{
-    double n = (double)s->job->p.n, all = n * n * 0x1p-106;
-    double dim = (double)s->job->p.dim;
-
-    for (size_t k = 0; k < s->job->p.dim; k++)
-        all *= s->job->row->most;
-    return all * (36.0 * (s->steps + 300.0) + 8.0 * 4.0 * 8.0 * (dim + 1.0)) *
-               (1.0 + 0x1p-20) +
-           n * n * 0x1p-900;
-}
-
-static ki_l2_number solve(divide *s)
-{
-    size_t tasks = ((size_t)2 << s->levels) - 1;
-    ki_twice all = {0.0, 0.0}, own = diagonal(s, &s->worker[0]);
-
-    ki_team_run(s->job->team, tasks, work_on, s);
-    for (size_t i = 0; i < tasks; i++)
-        all = ki_twice_add(all, s->sum[i]);
-    all = ki_twice_add(own, ki_twice_scale(all, 2.0));
-    for (size_t i = 0; i < ki_team_threads(s->job->team); i++)
-        s->steps += s->worker[i].steps;
-    return (ki_l2_number){all, error_of(s), 0};
-}
-
 koksma_status ki_l2_divide(ki_l2_number *sum, ki_l2_job *job)
 {
-    divide s = {.job = job};
+    divide s = {.job = job,
+                .terms = &ki_l2_terms_of[job->kind],
+                .call = {.kind = job->kind, .dim = job->p.dim}};
     bool made = make(&s);
 
-    if (made) {
-        prepare(&s);
-        *sum = solve(&s);
-    }
+    if (made) *sum = solve(&s);
     free(s.key);
     free(s.item);
-    free(s.place);
+    free_tables(s.by, job->p.dim);
+    free_tables(s.rank, job->p.dim);
     free_tables(s.order, s.levels + 1);
     for (size_t i = 0; s.worker != NULL && i < ki_team_threads(job->team); i++)
         free(s.worker[i].spare);
     free(s.worker);
+    free(s.last);
     free(s.sum);
+    free(s.loss);
     return made ? KOKSMA_OK : KOKSMA_ENOMEM;
 }

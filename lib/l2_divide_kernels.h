@@ -1,12 +1,11 @@
 #ifndef KI_L2_DIVIDE_KERNELS_H
 #define KI_L2_DIVIDE_KERNELS_H
 
+#include <string.h>
+
 #include "l2_kernels.h"
 
-/* Private: lists of points for divide and conquer.  An item is KI_L2_ITEM + 2 dim -
- * 1 doubles: its weight, its coordinates, and its ranks along coordinates 1, ...,
- * dim - 1, all of them different. */
-enum { KI_L2_ITEM = 2 };
+/* Private: lists of points for divide and conquer, and the loops over them. */
 
 typedef struct ki_l2_key {
     uint64_t bits; /* of a number >= 0 */
@@ -16,129 +15,144 @@ typedef struct ki_l2_key {
 /* Sort by bits, stably; spare has room for n.  Returns where the result is. */
 ki_l2_key *ki_l2_sort(ki_l2_key *key, ki_l2_key *spare, size_t n);
 
+/* ---- What a kernel of one coordinate is cut into ------------------------------
+ */
+
+/* k(x,y) = sum over r of sign_r f_r(x) f_r(y)  +  times * core(x,y), of which only
+ * the core, for x <= y a product first(x) second(y), minds the order:
+ *
+ *     core        first(x)              second(y)
+ *     STAR        1                     1-y
+ *     EXTREME     x                     1-y
+ *     CENTERED    1 + max(x-1/2,0)      1 + max(1/2-y,0)
+ *     MAX         1                     y
+ */
+typedef enum ki_l2_core {
+    KI_L2_CORE_STAR,
+    KI_L2_CORE_EXTREME,
+    KI_L2_CORE_CENTERED,
+    KI_L2_CORE_MAX,
+    KI_L2_CORES
+} ki_l2_core;
+
+/* As l2_terms.c has it, without the factors 2^twos of the kind. */
+typedef struct ki_l2_terms {
+    ki_l2_core core;
+    double times;
+    int count;
+    double sign[3], most[3]; /* |f_r| <= most_r */
+} ki_l2_terms;
+extern const ki_l2_terms ki_l2_terms_of[KOKSMA_L2_KINDS];
+
+/* A term of the product over the coordinates: of coordinate k either term[k], or
+ * the core where that is negative. */
+typedef struct ki_l2_call {
+    koksma_l2_kind kind;
+    size_t dim;
+    signed char term[KOKSMA_L2_DIVIDE_DIM];
+    double times; /* the product of the signs and times */
+    double most;  /* and |times| that of the greatest |f_r f_r| and cores */
+} ki_l2_call;
+
+/* The weights of count points: the product of their f. */
+void ki_l2_weigh(const ki_l2_call *call, const double *x, const uint32_t *point,
+                 size_t count, ki_twice *weight);
+
+/* sum_i K(x_i,x_i). */
+ki_twice ki_l2_own(koksma_l2_kind kind, koksma_points p);
+
+/* ---- Lists ------------------------------------------------------------------ */
+
+/* An item is its weight in two slots, then its side and its ranks along axes 1,
+ * 2, ..., two in a slot, then its coordinates along axes 0, 1, ....  All ranks
+ * along an axis are different. */
+typedef union ki_l2_slot {
+    double x;
+    uint32_t rank[2];
+} ki_l2_slot;
+
+enum { KI_L2_RANKS = 2 };
+
+/* Sorted by coordinate 0.  The pairs are all of them, or across: those of an item
+ * of side 0 and one of side 1. */
 typedef struct ki_l2_list {
-    double *item;
-    size_t n;
+    ki_l2_slot *item;
+    size_t n, ones;      /* items, and those of side 1 */
+    uint32_t begin, end; /* of the ranks along the last axis */
+    bool across;
 } ki_l2_list;
 
 typedef struct ki_l2_worker {
-    koksma_l2_kind kind;
-    size_t dim, stride;
-    double *spare;  /* room for as many items as the longest list has: partitions */
-    double *copies; /* and for dim times as many */
-    ki_twice_total sum;
-    double steps; /* terms added to sum and to the sums that they hold */
+    ki_l2_core core;
+    size_t axes, stride; /* of the whole list; slots of an item */
+    ki_l2_slot *spare;   /* room for as many items as the longest list has */
+    ki_l2_slot *copies;  /* and for axes - 1 times as many */
+    ki_twice_total sum;  /* of w_a w_b core(a_0,b_0) ... over the pairs (a,b) */
+    double added;        /* numbers added to it */
+    double loss;         /* see l2_divide.c */
+    double steps;        /* items looked at */
 } ki_l2_worker;
 
-/* Add to w->sum the sum of w_a w_b k(a_0,b_0) ... k(a_(axes-1),b_(axes-1)) over a
- * in the one list and b in the other.  Both are sorted by coordinate 0, and are not
- * when it returns. */
-void ki_l2_cross(ki_l2_worker *w, size_t axes, ki_l2_list a, ki_l2_list b);
+/* Add the list's pairs along axes 0, ..., axes - 1 to w->sum.  Its items are in
+ * another order when it returns. */
+void ki_l2_solve(ki_l2_worker *w, size_t axes, ki_l2_list l);
 
-/* The same over all pairs in one list, each once, in all dim coordinates. */
-void ki_l2_within(ki_l2_worker *w, ki_l2_list a);
+/* Of those, the pairs on either side of a rank along the last axis. */
+void ki_l2_apart(ki_l2_worker *w, size_t axes, ki_l2_list l, uint32_t cut);
 
-/* The part of that of pairs on either side of a rank along the last axis. */
-void ki_l2_apart(ki_l2_worker *w, ki_l2_list a, double rank);
+/* ---- Loops, of which l2_sweep.c has one for each core -------------------------
+ */
 
-/* ki_l2_cross with one axis.  With a role r >= 0 the weights are also multiplied by
- * f_r (a) and g_r (b) of coordinate 1: the last level without copies. */
-void ki_l2_merge(ki_l2_worker *w, ki_l2_list a, ki_l2_list b, int role);
+typedef struct ki_l2_halves {
+    ki_l2_list low, high;
+} ki_l2_halves;
 
-/* Few items: every pair. */
-void ki_l2_brute(ki_l2_worker *w, size_t axes, ki_l2_list a, ki_l2_list b);
+typedef struct ki_l2_loops {
+    /* Bring the items with a rank below cut along axis 1 to the front, both parts
+     * in their order, and add the pairs on either side of it: two axes. */
+    ki_l2_halves (*sweep)(ki_l2_worker *w, ki_l2_list l, uint32_t cut);
+    /* Copy the items to `to` that belong to pairs on either side of a rank along
+     * axis: those of low side 0 and high side 1, or with swapped the others.  The
+     * weights take the core's factor of that axis in, sides become low and high. */
+    ki_l2_list (*lift)(ki_l2_worker *w, ki_l2_slot *to, ki_l2_list l, size_t axis,
+                       uint32_t cut, bool swapped);
+    /* Few items: every pair. */
+    void (*brute)(ki_l2_worker *w, size_t axes, ki_l2_list l);
+    /* One axis, with none where x is NULL, and all pairs: x rises. */
+    void (*pass)(ki_l2_worker *w, ki_twice_total *before, const double *x,
+                 const ki_twice *weight, size_t n);
+} ki_l2_loops;
+extern const ki_l2_loops ki_l2_loops_of[KI_L2_CORES];
 
-/* Faster than memcpy for so few. */
-KI_L2_INLINE void ki_l2_copy(double *to, const double *from, size_t count)
+/* So many items with so many pairs at most were added up in one loop. */
+KI_L2_INLINE void ki_l2_count(ki_l2_worker *w, double items, double pairs)
 {
+    w->added += 1.0;
+    w->steps += items;
+    w->loss += (72.0 * items + 128.0) * pairs;
+}
+
+/* Where the rank along an axis and a coordinate stand. */
+KI_L2_INLINE uint32_t *ki_l2_rank(ki_l2_slot *item, size_t axis)
+{
+    return &item[KI_L2_RANKS + axis / 2].rank[axis % 2];
+}
+
+KI_L2_INLINE size_t ki_l2_coordinates(size_t axes)
+{
+    return KI_L2_RANKS + (axes + 1) / 2;
+}
+
+/* A loop is faster than a call for so few, and moves of a known number than both.
+ */
+KI_L2_INLINE void ki_l2_copy(ki_l2_slot *to, const ki_l2_slot *from, size_t count)
+{
+    if (__builtin_constant_p(count)) {
+        memmove(to, from, count * sizeof *to);
+        return;
+    }
     for (size_t i = 0; i < count; i++)
         to[i] = from[i];
-}
-
-/* f_r(x) and g_r(y) of the kind: for x <= y,  k(x,y) = sum over r of f_r(x) g_r(y).
- *
- *     star        1 (1-y)
- *     extreme     x (1-y)
- *     centered    (1 + max(x-1/2,0)) (1 + max(1/2-y,0))
- *     symmetric   x 1 + 1 (1-y)                             (without its factor 2)
- *     periodic    1 (1/2 - y + y^2) + x (1-2y) + x^2 1
- *     wraparound  the same with 3/2
- *     mixture     (-|x-1/2|/4 + 3x/4 + x^2/2) 1 + x (-y)
- *                 + 1 (15/8 - |y-1/2|/4 - 3y/4 + y^2/2)
- *
- * x, 1-x, 1-2x and x-1/2 are exact in twice the precision, x^2 too unless it
- * underflows, which loses less than 2^-1070; the rest takes at most four operations
- * on numbers of at most 2, off by 2^-103 of that each. */
-KI_L2_INLINE ki_twice ki_l2_small(double x) { return (ki_twice){x, 0.0}; }
-
-KI_L2_INLINE ki_twice ki_l2_middle(double x)
-{
-    ki_twice t = ki_twice_sum(x, -0.5);
-
-    return t.hi < 0.0 ? ki_twice_negate(t) : t;
-}
-
-/* -|x-1/2|/4 + x^2/2 */
-KI_L2_INLINE ki_twice ki_l2_bow(double x)
-{
-    return ki_twice_add(ki_twice_scale(ki_l2_middle(x), -0.25),
-                        ki_twice_scale(ki_twice_product(x, x), 0.5));
-}
-
-/* 3/4 x, exactly. */
-KI_L2_INLINE ki_twice ki_l2_three(double x)
-{
-    return ki_twice_sum(0.5 * x, 0.25 * x);
-}
-
-KI_L2_INLINE ki_twice ki_l2_first(koksma_l2_kind kind, int r, double x)
-{
-    switch (kind) {
-    case KOKSMA_L2_EXTREME: return ki_l2_small(x);
-    case KOKSMA_L2_CENTERED:
-        return x > 0.5 ? ki_twice_sum(x, 0.5) : ki_l2_small(1.0);
-    case KOKSMA_L2_SYMMETRIC: return ki_l2_small(r == 0 ? x : 1.0);
-    case KOKSMA_L2_PERIODIC:
-    case KOKSMA_L2_WRAPAROUND:
-        return r == 0   ? ki_l2_small(1.0)
-               : r == 1 ? ki_l2_small(x)
-                        : ki_twice_product(x, x);
-    case KOKSMA_L2_MIXTURE:
-        return r == 0   ? ki_twice_add(ki_l2_bow(x), ki_l2_three(x))
-               : r == 1 ? ki_l2_small(x)
-                        : ki_l2_small(1.0);
-    case KOKSMA_L2_STAR:
-    case KOKSMA_L2_KINDS: break;
-    }
-    return ki_l2_small(1.0);
-}
-
-KI_L2_INLINE ki_twice ki_l2_second(koksma_l2_kind kind, int r, double y)
-{
-    switch (kind) {
-    case KOKSMA_L2_CENTERED:
-        return y < 0.5 ? ki_twice_sum(1.5, -y) : ki_l2_small(1.0);
-    case KOKSMA_L2_SYMMETRIC:
-        return r == 0 ? ki_l2_small(1.0) : ki_twice_sum(1.0, -y);
-    case KOKSMA_L2_PERIODIC:
-    case KOKSMA_L2_WRAPAROUND:
-        return r == 0
-                   ? ki_twice_add(
-                         ki_twice_sum(kind == KOKSMA_L2_PERIODIC ? 0.5 : 1.5, -y),
-                         ki_twice_product(y, y))
-               : r == 1 ? ki_twice_sum(1.0, -2.0 * y)
-                        : ki_l2_small(1.0);
-    case KOKSMA_L2_MIXTURE:
-        return r == 0 ? ki_l2_small(1.0)
-               : r == 1
-                   ? ki_l2_small(-y)
-                   : ki_twice_add(ki_twice_add(ki_l2_small(1.875), ki_l2_bow(y)),
-                                  ki_twice_negate(ki_l2_three(y)));
-    case KOKSMA_L2_STAR:
-    case KOKSMA_L2_EXTREME:
-    case KOKSMA_L2_KINDS: break;
-    }
-    return ki_twice_sum(1.0, -y);
 }
 
 #endif

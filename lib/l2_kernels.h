@@ -48,8 +48,7 @@ typedef struct ki_l2_row {
     int arrays; /* numbers a coordinate that pairs works with */
     int ulps;   /* k from these is off by at most so many times 2^-53, relatively */
     int chunk;  /* so many factors multiply without leaving [2^-900, 2^900] */
-    int rank;   /* terms f_r(x) g_r(y) that k has for x <= y */
-    double most; /* sum of the |f_r(x) g_r(y)| */
+    int terms;  /* of divide, besides its core: l2_terms.c */
 } ki_l2_row;
 extern const ki_l2_row ki_l2_rows[KOKSMA_L2_KINDS];
 
@@ -77,6 +76,8 @@ ki_l2_number ki_l2_flushed(koksma_points p, koksma_l2_kind kind);
 typedef koksma_status ki_l2_method(ki_l2_number *sum, ki_l2_job *job);
 ki_l2_method ki_l2_pairs;
 ki_l2_method ki_l2_divide;
+/* The most coordinates that it takes. */
+size_t ki_l2_divide_dim(koksma_l2_kind kind);
 
 /* What pairs does at once: a block of rows against a panel of columns.  A panel
  * holds KI_L2_PANEL points, for each coordinate so many first numbers and, where

@@ -30,11 +30,11 @@ const char *const koksma_l2_names[KOKSMA_L2_KINDS] = {
  * extreme 2^-253, symmetric 2^-200, with coordinates no less than KI_L2_LEAST; the
  * others lie between 1/4 and 2. */
 const ki_l2_row ki_l2_rows[KOKSMA_L2_KINDS] = {
-    [KOKSMA_L2_STAR] = {1, 3, 1, 0, 1, 1, 16, 1, 1.0},
-    [KOKSMA_L2_EXTREME] = {1, 12, 1, 0, 2, 2, 3, 1, 1.0},
-    [KOKSMA_L2_PERIODIC] = {1, 3, -1, 0, 1, 3, 64, 3, 2.5},
-    [KOKSMA_L2_CENTERED] = {13, 12, 1, 0, 2, 2, 64, 1, 1.5},
-    [KOKSMA_L2_WRAPAROUND] = {4, 3, -1, 0, 1, 2, 64, 3, 3.5},
-    [KOKSMA_L2_MIXTURE] = {19, 12, 1, 0, 2, 4, 64, 3, 4.0},
-    [KOKSMA_L2_SYMMETRIC] = {2, 3, 1, 1, 2, 2, 4, 2, 1.0},
+    [KOKSMA_L2_STAR] = {1, 3, 1, 0, 1, 1, 16, 0},
+    [KOKSMA_L2_EXTREME] = {1, 12, 1, 0, 2, 2, 3},
+    [KOKSMA_L2_PERIODIC] = {1, 3, -1, 0, 1, 3, 64, 3},
+    [KOKSMA_L2_CENTERED] = {13, 12, 1, 0, 2, 2, 64, 0},
+    [KOKSMA_L2_WRAPAROUND] = {4, 3, -1, 0, 1, 2, 64, 3},
+    [KOKSMA_L2_MIXTURE] = {19, 12, 1, 0, 2, 4, 64, 3},
+    [KOKSMA_L2_SYMMETRIC] = {2, 3, 1, 1, 2, 2, 4, 2},
 };

@@ -59,6 +59,14 @@ KI_TWICE_INLINE ki_twice ki_twice_times(ki_twice a, ki_twice b)
     return ki_twice_normal(p.hi, p.lo + fma(a.hi, b.lo, a.lo * b.hi));
 }
 
+/* By a double: off by 2 u^2 [algorithm 9 there]. */
+KI_TWICE_INLINE ki_twice ki_twice_by(ki_twice a, double b)
+{
+    ki_twice p = ki_twice_product(a.hi, b);
+
+    return ki_twice_normal(p.hi, fma(a.lo, b, p.lo));
+}
+
 /* By a power of two, exactly but for underflow. */
 KI_TWICE_INLINE ki_twice ki_twice_scale(ki_twice a, double power)
 {

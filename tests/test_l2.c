@@ -9,6 +9,7 @@
 
 #include "gen.h"
 #include "l2.h"
+#include "num_twice.h"
 #include "oracle.h"
 
 /* ---- The definition ---------------------------------------------------------- */
@@ -301,6 +302,35 @@ START_TEST(both_methods_agree)
 }
 END_TEST
 
+/* Where every cut is one through ties; and a point alone. */
+START_TEST(equal_points)
+{
+    static const double at[] = {0.0, 0.25, 0.5, 1.0};
+    size_t n = 3000;
+    double *x = malloc(n * 3 * sizeof *x);
+
+    ck_assert_ptr_nonnull(x);
+    for (size_t i = 0; i < 4; i++)
+        for (int kind = 0; kind < KOKSMA_L2_KINDS; kind++) {
+            koksma_l2_kind k = (koksma_l2_kind)kind;
+            koksma_interval one, all;
+
+            for (size_t j = 0; j < n * 3; j++)
+                x[j] = at[i];
+            for (size_t dim = 1; dim <= 3; dim++) {
+                check_exact((koksma_points){x, 1, dim}, k, 4);
+                one = solve((koksma_points){x, 1, dim}, k, KOKSMA_L2_PAIRS).squared;
+                all =
+                    solve((koksma_points){x, n, dim}, k, KOKSMA_L2_DIVIDE).squared;
+                if (!overlap(one, all))
+                    complain("equal", (koksma_points){x, n, dim}, k, 2, all,
+                             one.lower);
+            }
+        }
+    free(x);
+}
+END_TEST
+
 /* More than a task, and an odd number of points in each. */
 START_TEST(threads_change_no_bit)
 {
@@ -325,6 +355,30 @@ START_TEST(threads_change_no_bit)
     ck_assert(overlap(solve(p, KOKSMA_L2_STAR, KOKSMA_L2_PAIRS).squared,
                       solve(p, KOKSMA_L2_STAR, KOKSMA_L2_DIVIDE).squared));
     free(x);
+}
+END_TEST
+
+/* A million terms, against the sum in integers of 128 bits: 2^-106 each. */
+START_TEST(long_totals)
+{
+    enum { TERMS = 1000000 };
+    oracle_rng rng = oracle_rng_start(oracle_seed(), 77);
+    ki_twice_total total = {0.0, 0.0, 0};
+    oracle_int want = 0, got, most = (oracle_int)36 * TERMS * TERMS;
+    ki_twice v;
+
+    for (int i = 0; i < TERMS; i++) {
+        double hi = 1.0 + oracle_dyadic(&rng, 50);
+        double lo = ldexp(oracle_dyadic(&rng, 40) - 0.5, -53);
+
+        want += (oracle_int)ldexp(hi, 53) * ((oracle_int)1 << 53);
+        want += (oracle_int)ldexp(lo, 106);
+        ki_twice_total_add(&total, (ki_twice){hi, lo});
+    }
+    v = ki_twice_total_value(&total);
+    got = (oracle_int)ldexp(v.hi, 53) * ((oracle_int)1 << 53);
+    got += (oracle_int)ldexp(v.lo, 106);
+    ck_assert(got - want <= 2 * most && want - got <= 2 * most);
 }
 END_TEST
 
@@ -580,6 +634,16 @@ START_TEST(refusals)
     ck_assert_int_eq(
         koksma_l2(&r, (koksma_points){x, 1, KOKSMA_L2_DIVIDE_DIM}, &opts, &err),
         KOKSMA_OK);
+    opts.kind = KOKSMA_L2_MIXTURE;
+    ck_assert_int_eq(
+        koksma_l2(&r, (koksma_points){x, 1, KOKSMA_L2_DIVIDE_DIM_TERMS + 1}, &opts,
+                  &err),
+        KOKSMA_EINVAL);
+    ck_assert_int_eq(koksma_l2(&r,
+                               (koksma_points){x, 1, KOKSMA_L2_DIVIDE_DIM_TERMS},
+                               &opts, &err),
+                     KOKSMA_OK);
+    opts.kind = KOKSMA_L2_STAR;
     opts.progress = stop;
     opts.state = &calls;
     ck_assert_int_eq(koksma_l2(&r, (koksma_points){x, 2, 1}, &opts, &err),
@@ -597,6 +661,8 @@ int main(void)
     tcase_add_test(c, every_pair_of_points_on_a_small_grid);
     tcase_add_test(c, random_sets_on_grids);
     tcase_add_test(c, both_methods_agree);
+    tcase_add_test(c, equal_points);
+    tcase_add_test(c, long_totals);
     tcase_add_test(c, threads_change_no_bit);
     tcase_add_test(c, known_values_of_halton_points);
     tcase_add_test(c, midpoints);
