@@ -4,6 +4,7 @@
 /* libkoksma: discrepancy and variation analysis.  koksma(3) is the map. */
 
 #include <koksma/curve.h>
+#include <koksma/edge.h>
 #include <koksma/fit.h>
 #include <koksma/gen.h>
 #include <koksma/integrand.h>

@@ -3,6 +3,8 @@
 noinst_LTLIBRARIES = %D%/libcore.la
 %C%_libcore_la_SOURCES = \
   %D%/curve.c %D%/curve.h \
+  %D%/edge.c %D%/edge.h %D%/edge_kernels.h %D%/edge_cell.c %D%/edge_leaf.c \
+  %D%/edge_line.c %D%/edge_run.c %D%/edge_sort.c %D%/edge_sweep.c %D%/edge_tree.c \
   %D%/error.c %D%/error.h \
   %D%/fit.c %D%/fit.h %D%/fit_kernels.h %D%/fit_grid.c %D%/fit_judge.c \
   %D%/fit_line.c %D%/fit_mixture.c \
@@ -18,6 +20,7 @@ noinst_LTLIBRARIES = %D%/libcore.la
   %D%/l2_divide_kernels.h %D%/l2_kinds.c %D%/l2_linear.c %D%/l2_merge.c \
   %D%/l2_number.c %D%/l2_pairs.c %D%/l2_sort.c %D%/l2_tile.c \
   %D%/num.c %D%/num.h %D%/num_kernels.h %D%/num_student.c %D%/num_twice.h \
+  %D%/num_wide.c %D%/num_wide.h \
   %D%/part.c %D%/part.h \
   %D%/points.c %D%/points.h \
   %D%/rng.c %D%/rng.h \
@@ -52,7 +55,7 @@ lib_LTLIBRARIES = %D%/libkoksma.la
 include_HEADERS = %D%/koksma.h
 koksmaincludedir = $(includedir)/koksma
 koksmainclude_HEADERS = \
-  %D%/curve.h %D%/fit.h %D%/gen.h %D%/integrand.h %D%/io.h %D%/l2.h %D%/num.h \
+  %D%/curve.h %D%/edge.h %D%/fit.h %D%/gen.h %D%/integrand.h %D%/io.h %D%/l2.h %D%/num.h \
   %D%/points.h %D%/rng.h %D%/scene.h %D%/star.h
 
 pkgconfig_DATA = %D%/koksma.pc

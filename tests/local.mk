@@ -118,10 +118,13 @@ clean-fuzz:
 # ---- Benches ---------------------------------------------------------------------
 
 benches = \
+  %D%/bench_edge \
   %D%/bench_gen %D%/bench_io %D%/bench_star %D%/bench_star_trade \
   %D%/bench_star_plane %D%/bench_l2 %D%/bench_fit %D%/bench_integrand
 EXTRA_PROGRAMS += $(benches)
 CLEANFILES     += $(benches)
+%C%_bench_edge_SOURCES = %D%/bench_edge.c %D%/bench.h
+%C%_bench_edge_LDADD   = lib/libcore.la
 %C%_bench_gen_SOURCES  = %D%/bench_gen.c %D%/bench.h
 %C%_bench_gen_LDADD    = lib/libcore.la
 %C%_bench_io_SOURCES   = %D%/bench_io.c %D%/bench.h
