@@ -1,4 +1,5 @@
-/* The half-plane discrepancy: CPU seconds with one thread, the best of three runs. */
+/* The half-plane discrepancy: CPU seconds with one thread, the best of three runs.
+ */
 #include "bench.h"
 #include "edge.h"
 #include "gen.h"
