@@ -113,10 +113,7 @@ int main(int argc, char *argv[])
     while ((c = cli_next(&tool, argc, argv)) != -1)
         switch (c) {
         case 'm': o.opts.method = read_method(optarg); break;
-        case 'e':
-            o.opts.tolerance = cli_real("-e", optarg, 0.0, 1e9);
-            o.opts.anytime = true;
-            break;
+        case 'e': o.opts.tolerance = cli_real("-e", optarg, 0.0, 1e9); break;
         case 't':
             o.watch.seconds = cli_real("-t", optarg, 1e-3, 1e9);
             o.opts.anytime = true;

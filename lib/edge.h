@@ -47,8 +47,8 @@ typedef struct koksma_edge_opts {
     koksma_edge_method method;
     /* The tree stops at upper <= (1 + tolerance) lower; 0: exact. */
     double tolerance;
-    /* It works towards that in stages, which takes longer in all, but has an upper
-     * bound when it is stopped. */
+    /* It works towards that in stages, which takes about twice as long in all, but
+     * has an upper bound when it is stopped. */
     bool anytime;
     size_t threads; /* 0: one a processor */
     /* Called a few times a second, and when value improves; by any thread, but by
@@ -75,11 +75,12 @@ typedef struct koksma_edge_opts {
  * value is then true, but wider; KOKSMA_EINVAL or KOKSMA_EDOMAIN as
  * koksma_points_check, and for options out of range or dim other than 2;
  * KOKSMA_ENOMEM Cost:    sweep: n^2 log n.  tree: no useful bound, measured on
- * Halton points about n^1.5; n^2 log n and more where very many points are on one
+ * Halton points about n^1.6; n^2 log n and more where very many points are on one
  * line up to rounding, but not exactly.  Memory grows like n, for each thread
  *
- * Source:  the sweep: [Dobkin, Eppstein, Mitchell 1996]; the tree is Koksma's own,
- *          proven in lib/edge_kernels.h and lib/edge_cell.c */
+ * Source:  the definition: [Dobkin, Eppstein, Mitchell 1996]; which lines matter is
+ *          proven in lib/edge_kernels.h, the tree in lib/edge_tree.c and
+ *          lib/edge_cell.c */
 koksma_status koksma_edge(koksma_edge_result *out, koksma_points p,
                           const koksma_edge_opts *opts, koksma_error *err);
 
