@@ -51,16 +51,18 @@ static size_t merge(double *x, double *y, double *w, const double *at, size_t n)
     return count;
 }
 
-/* `memory` has room for 5 n numbers. */
+/* `memory` has room for 5 n numbers and three paddings. */
 static ki_edge_points different_points(double *memory, koksma_points p)
 {
-    double *x = memory, *y = x + p.n, *w = y + p.n, *at = w + p.n;
+    double *x = memory, *y = x + p.n + KI_EDGE_LANES, *w = y + p.n + KI_EDGE_LANES;
+    double *at = w + p.n + KI_EDGE_LANES;
     size_t count;
 
     for (size_t i = 0; i < 2 * p.n; i++)
         at[i] = p.x[i];
     qsort(at, p.n, 2 * sizeof *at, by_place);
     count = merge(x, y, w, at, p.n);
+    ki_edge_pad(x, y, w, count);
     return (ki_edge_points){{x, y}, count < p.n ? w : NULL, count, p.n};
 }
 
@@ -81,7 +83,7 @@ koksma_status koksma_edge(koksma_edge_result *out, koksma_points p,
     method = opts->method;
     if (method == KOKSMA_EDGE_AUTO)
         method = p.n <= SWEEP_MOST ? KOKSMA_EDGE_SWEEP : KOKSMA_EDGE_TREE;
-    memory = ki_alloc(p.n, 5 * sizeof *memory);
+    memory = ki_alloc(5 * p.n + 3 * KI_EDGE_LANES, sizeof *memory);
     if (memory == NULL) return ki_fail_memory(err, "the different points");
     if (ki_edge_run_begin(&run, p.n, opts) != KOKSMA_OK) {
         free(memory);

@@ -20,116 +20,101 @@ typedef double lanes __attribute__((vector_size(KI_EDGE_LANES * sizeof(double)),
                                     aligned(sizeof(double)), may_alias));
 typedef int64_t masks __attribute__((vector_size(KI_EDGE_LANES * sizeof(double))));
 
-/* What is counted: points below or above, of a part that has an upper half. */
-enum { BELOW_U, BELOW_V, BELOW_BOTH, ABOVE_NONE, ABOVE_U, ABOVE_V, COUNTS };
-
-/* A point that is above all lines of all parts, and below none. */
+/* What compares with nothing is neither below nor above. */
 void ki_edge_pad(double *x, double *y, double *w, size_t count)
 {
     for (size_t i = count; i < count + KI_EDGE_LANES; i++) {
-        x[i] = 0.0;
-        y[i] = 0x1p10;
+        x[i] = y[i] = NAN;
         if (w != NULL) w[i] = 0.0;
     }
 }
 
-INLINE void classify(masks *is, const double *x, const double *y,
-                     const ki_edge_cell *c)
-{
-    double d = 0.5 * c->side;
-    lanes across = *(const lanes *)x, r = *(const lanes *)y;
-    lanes by_v = d * across, by_u = d - by_v;
+/* Where a mask is set: one more, or the weight. */
+#define COUNT(sum, is, weight) ((sum) += (lanes)((masks)(is) & (weight)))
 
-    r = r - c->u - (c->v - c->u) * across;
-    is[BELOW_U] = r < by_u - KI_EDGE_NEAR;
-    is[BELOW_V] = r < by_v - KI_EDGE_NEAR;
-    is[BELOW_BOTH] = r < d - KI_EDGE_NEAR;
-    r = r - d;
-    is[ABOVE_NONE] = r > KI_EDGE_NEAR;
-    is[ABOVE_U] = r > by_u + KI_EDGE_NEAR;
-    is[ABOVE_V] = r > by_v + KI_EDGE_NEAR;
+INLINE double total(const lanes *sum)
+{
+    double all = 0.0;
+
+    for (int lane = 0; lane < KI_EDGE_LANES; lane++)
+        all += (*sum)[lane];
+    return all;
 }
 
-CLONES static void count_points(double *sum, const ki_edge_cell *c,
-                                const ki_edge_list *l)
+/* No loop over the parts: the sums are to stay in registers. */
+INLINE void count_points(ki_edge_split *s, const ki_edge_cell *c,
+                         const ki_edge_list *l, bool weighted)
 {
-    masks total[COUNTS] = {{0}}, is[COUNTS];
+    double d = 0.5 * c->side, slope = c->v - c->u, near = KI_EDGE_NEAR;
+    lanes below[KI_EDGE_PARTS] = {{0}}, above[KI_EDGE_PARTS] = {{0}}, one = {0};
 
+    one += 1.0;
     for (size_t i = 0; i < l->count; i += KI_EDGE_LANES) {
-        classify(is, l->x + i, l->y + i, c);
-        for (int k = 0; k < COUNTS; k++)
-            total[k] -= is[k];
+        lanes x = *(const lanes *)(l->x + i), y = *(const lanes *)(l->y + i);
+        lanes by_v = d * x, by_u = d - by_v, r = y - c->u - slope * x, high = r - d;
+        masks weight = (masks)(weighted ? *(const lanes *)(l->w + i) : one);
+
+        COUNT(below[0], r < -near, weight);
+        COUNT(below[1], r < by_u - near, weight);
+        COUNT(below[2], r < by_v - near, weight);
+        COUNT(below[3], r < d - near, weight);
+        COUNT(above[0], high > near, weight);
+        COUNT(above[1], high > by_u + near, weight);
+        COUNT(above[2], high > by_v + near, weight);
+        COUNT(above[3], high > d + near, weight);
     }
-    for (int k = 0; k < COUNTS; k++) {
-        sum[k] = 0.0;
-        for (int lane = 0; lane < KI_EDGE_LANES; lane++)
-            sum[k] += (double)total[k][lane];
-    }
+    *s = (ki_edge_split){
+        {total(&below[0]), total(&below[1]), total(&below[2]), total(&below[3])},
+        {total(&above[0]), total(&above[1]), total(&above[2]), total(&above[3])}};
 }
 
-CLONES static void weigh_points(double *sum, const ki_edge_cell *c,
-                                const ki_edge_list *l)
+CLONES static void count_each(ki_edge_split *s, const ki_edge_cell *c,
+                              const ki_edge_list *l)
 {
-    lanes total[COUNTS] = {{0}};
-    masks is[COUNTS];
+    count_points(s, c, l, false);
+}
 
-    for (size_t i = 0; i < l->count; i += KI_EDGE_LANES) {
-        masks weight = (masks) * (const lanes *)(l->w + i);
-
-        classify(is, l->x + i, l->y + i, c);
-        for (int k = 0; k < COUNTS; k++)
-            total[k] += (lanes)(is[k] & weight);
-    }
-    for (int k = 0; k < COUNTS; k++) {
-        sum[k] = 0.0;
-        for (int lane = 0; lane < KI_EDGE_LANES; lane++)
-            sum[k] += total[k][lane];
-    }
+CLONES static void count_weights(ki_edge_split *s, const ki_edge_cell *c,
+                                 const ki_edge_list *l)
+{
+    count_points(s, c, l, true);
 }
 
 void ki_edge_cell_split(ki_edge_split *s, const ki_edge_cell *c,
                         const ki_edge_list *l)
 {
-    double sum[COUNTS], pads = 0.0;
-
-    if (l->w == NULL) {
-        count_points(sum, c, l);
-        pads = (double)((KI_EDGE_LANES - l->count % KI_EDGE_LANES) % KI_EDGE_LANES);
-    } else {
-        weigh_points(sum, c, l);
-    }
-    *s = (ki_edge_split){
-        {0.0, sum[BELOW_U], sum[BELOW_V], sum[BELOW_BOTH]},
-        {sum[ABOVE_NONE] - pads, sum[ABOVE_U] - pads, sum[ABOVE_V] - pads, 0.0}};
+    (l->w == NULL ? count_each : count_weights)(s, c, l);
 }
 
 /* A point is written anyway, and then written over or not. */
-CLONES static size_t keep_points(double *x, double *y, double *w, double *under,
-                                 const ki_edge_cell *c, const ki_edge_list *l)
+INLINE size_t keep_points(double *x, double *y, double *w, double *under,
+                          const ki_edge_cell *c, const ki_edge_list *l)
 {
     double u = c->u, slope = c->v - c->u, most = c->side + KI_EDGE_NEAR;
     double below = 0.0;
-    size_t kept = 0, passed = 0;
+    size_t kept = 0, n = l->count, passed = 0;
+    const double *from_x = l->x, *from_y = l->y;
 
-    for (size_t i = 0; i < l->count; i++) {
-        double across = l->x[i], up = l->y[i], r = up - u - slope * across;
-        bool is_below = r < -KI_EDGE_NEAR;
+    for (size_t i = 0; i < n; i++) {
+        double across = from_x[i], up = from_y[i], r = up - u - slope * across;
+        bool is_below = r<-KI_EDGE_NEAR, is_above = r> most;
 
         x[kept] = across;
         y[kept] = up;
-        if (l->w != NULL) {
+        if (w != NULL) {
             w[kept] = l->w[i];
             below += is_below ? l->w[i] : 0.0;
         }
-        kept += !is_below & (r <= most);
+        kept += 1 - ((size_t)is_below | (size_t)is_above);
         passed += is_below;
     }
-    *under += l->w != NULL ? below : (double)passed;
+    *under += w != NULL ? below : (double)passed;
     return kept;
 }
 
 size_t ki_edge_cell_keep(double *x, double *y, double *w, double *under,
                          const ki_edge_cell *c, const ki_edge_list *l)
 {
+    if (l->w == NULL) return keep_points(x, y, NULL, under, c, l);
     return keep_points(x, y, w, under, c, l);
 }

@@ -44,8 +44,8 @@ enum { KI_EDGE_PASSES = 2 };
 #define KI_EDGE_SLACK 0x1p-44 /* of a local discrepancy, plainly computed */
 #define KI_EDGE_NEAR 0x1p-40  /* a point so near to a line may be on either side */
 
-/* The different points, ascending, in arrays; w: how often each is there, or NULL
- * where each is there once. */
+/* The different points, ascending, in arrays that ki_edge_pad has padded; w: how
+ * often each is there, or NULL where each is there once. */
 typedef struct ki_edge_points {
     const double *x[2]; /* in pass k, x[k] is across and x[1 - k] up */
     const double *w;
@@ -212,7 +212,8 @@ typedef struct ki_edge_split {
     double below[KI_EDGE_PARTS], above[KI_EDGE_PARTS];
 } ki_edge_split;
 
-/* Lists are read some points beyond their end, which ki_edge_pad makes. */
+/* The lists of cells are read up to so many points beyond their end: ki_edge_pad
+ * puts some there that count as nothing. */
 enum { KI_EDGE_LANES = 8 };
 void ki_edge_pad(double *x, double *y, double *w, size_t count);
 

@@ -29,13 +29,13 @@ typedef struct part {
  */
 typedef struct node {
     size_t begin, count;
-    double under;
+    double under, all; /* below all lines; on the list */
     part part[KI_EDGE_PARTS];
     int left;
 } node;
 
 typedef struct worker {
-    double *x, *y, *w; /* the lists of the path, one behind the other */
+    double *x, *y, *w; /* the lists of the path, each padded, one after the other */
     size_t room_x, room_y, room_w;
     ki_edge_sweeper sweeper;
     node path[DEPTH];
@@ -92,23 +92,23 @@ static double total(const ki_edge_list *l)
     return sum;
 }
 
-/* The parts of a cell that may be of interest, the best bound last. */
-static void cut(tree *t, worker *w, node *n, const ki_edge_cell *c, int pass)
+/* The parts of cell c that may be of interest, the best bound last.  Those of the
+ * points of l that are below or above all of c are so of its parts. */
+static void cut(tree *t, worker *w, node *n, const ki_edge_cell *c,
+                const ki_edge_list *l, double all)
 {
     double share = 1.0 / (double)t->run->n, bar = ki_edge_bar(t->run);
-    ki_edge_list l = list_of(t, w, n, pass);
     ki_edge_split s;
-    double all = total(&l);
 
-    ki_edge_cell_split(&s, c, &l);
-    w->work += (double)l.count;
+    ki_edge_cell_split(&s, c, l);
+    w->work += (double)l->count;
     n->left = 0;
     for (int k = 0; k < KI_EDGE_PARTS; k++) {
         part new = {.cell = part_of(c, k)};
         int j = n->left;
 
         if (is_too_steep(&new.cell)) continue;
-        new.bound = bound_of(&new.cell, n->under + s.below[k],
+        new.bound = bound_of(&new.cell, l->under + s.below[k],
                              all - s.below[k] - s.above[k], share);
         if (!(new.bound > bar)) continue;
         for (; j > 0 && n->part[j - 1].bound > new.bound; j--)
@@ -129,24 +129,26 @@ static bool make_room(const tree *t, worker *w, size_t count)
             ki_grow((void **)&w->w, &w->room_w, need, sizeof *w->w) == 0);
 }
 
-/* Visit cell c with the points of `from`, which go behind those of the path: offer
- * its lines, or leave its parts in *n.  Returns whether there are any. */
+/* Visit cell c with the points of `from`: where a part of it may be of interest,
+ * its points go behind those of the path, and its lines are offered, or its parts
+ * left in *n.  Returns whether there are any. */
 static bool visit(tree *t, worker *w, node *n, const ki_edge_cell *c,
-                  const ki_edge_list *from)
+                  const ki_edge_list *from, double all)
 {
+    double *x = w->x + n->begin, *y = w->y + n->begin;
+    double *weight = from->w != NULL ? w->w + n->begin : NULL;
     ki_edge_list l;
 
+    cut(t, w, n, c, from, all);
+    if (n->left == 0) return false;
     n->under = from->under;
-    n->count = ki_edge_cell_keep(w->x + n->begin, w->y + n->begin,
-                                 from->w != NULL ? w->w + n->begin : NULL,
-                                 &n->under, c, from);
-    l = list_of(t, w, n, from->pass);
+    n->count = ki_edge_cell_keep(x, y, weight, &n->under, c, from);
     w->work += (double)from->count;
+    l = list_of(t, w, n, from->pass);
     if (n->count > KI_EDGE_FEW && c->side > SIDE_LEAST) {
-        ki_edge_pad(w->x + n->begin, w->y + n->begin,
-                    from->w != NULL ? w->w + n->begin : NULL, n->count);
-        cut(t, w, n, c, from->pass);
-        return n->left > 0;
+        ki_edge_pad(x, y, weight, n->count);
+        n->all = total(&l);
+        return true;
     }
     if (n->count <= KI_EDGE_FEW)
         ki_edge_leaf(t->run, &l, c);
@@ -171,7 +173,7 @@ static void dive(tree *t, worker *w, int pass)
         next = n->part[--n->left];
         if (!(next.bound > ki_edge_bar(t->run))) continue;
         if (ki_edge_told_to_stop(t->run, &w->work)) return;
-        n[1].begin = n->begin + n->count;
+        n[1].begin = n->begin + n->count + KI_EDGE_LANES;
         if (!make_room(t, w, n[1].begin + n->count)) {
             ki_edge_give_up(t->run);
             return;
@@ -179,7 +181,7 @@ static void dive(tree *t, worker *w, int pass)
 
         ki_edge_list l = list_of(t, w, n, pass);
 
-        if (visit(t, w, n + 1, &next.cell, &l)) depth++;
+        if (visit(t, w, n + 1, &next.cell, &l, n->all)) depth++;
     }
 }
 
@@ -209,7 +211,7 @@ static void work_task(void *state, size_t thread, size_t task)
         return;
     }
     w->path[0].begin = 0;
-    if (visit(t, w, &w->path[0], &c, &l)) dive(t, w, pass);
+    if (visit(t, w, &w->path[0], &c, &l, (double)t->p->n)) dive(t, w, pass);
 }
 
 static void stage(void *state)

@@ -265,6 +265,42 @@ START_TEST(almost_in_line)
 }
 END_TEST
 
+/* Multiples of a point by powers of two are exactly on a line with the origin,
+ * though no difference of two is a double, and no slope the same. */
+START_TEST(in_line_but_not_in_doubles)
+{
+    enum { N = 12, LINE = 7 };
+
+    for (uint64_t round = 0; round < 200 * oracle_scale(); round++) {
+        oracle_rng rng = oracle_rng_start(oracle_seed(), round);
+        double x[2 * N];
+        koksma_points p = {x, N, 2};
+
+        for (size_t i = 0; i < 2 * N; i++)
+            x[i] = oracle_dyadic(&rng, 53);
+        for (size_t i = 2; i < 2 * LINE; i++)
+            x[i] = ldexp(x[i % 2], -3 * (int)(i / 2));
+
+        koksma_edge_result sweep = solve(p, KOKSMA_EDGE_SWEEP, 1);
+        koksma_edge_result tree = solve(p, KOKSMA_EDGE_TREE, 1);
+        koksma_interval again = koksma_half_plane_local(&sweep.witness, p);
+        const double *last = x + 2 * (LINE - 1);
+
+        ck_assert_msg(same(&sweep, &tree), "set %llu: [%a, %a], [%a, %a]",
+                      (unsigned long long)round, sweep.value.lower,
+                      sweep.value.upper, tree.value.lower, tree.value.upper);
+        ck_assert(again.lower == sweep.value.lower);
+        for (int turn = 0; turn < 2; turn++) {
+            koksma_half_plane h = {{x[0], x[1]}, {last[0], last[1]}, 0};
+
+            if (turn) h = (koksma_half_plane){{last[0], last[1]}, {x[0], x[1]}, 0};
+            again = koksma_half_plane_local(&h, p);
+            ck_assert(again.lower <= sweep.value.lower);
+        }
+    }
+}
+END_TEST
+
 /* Coordinates whose products are below the range of doubles. */
 START_TEST(tiny_coordinates)
 {
@@ -297,9 +333,10 @@ static const struct source {
     double levels; /* > 0: moved to a grid of so many steps */
 } sources[] =
     {
-        {"random", 300, 0}, {"halton", 300, 0},  {"hammersley", 257, 0},
-        {"random", 500, 9}, {"random", 400, 10}, {"centred", 225, 0},
-        {"sobol", 256, 0},  {"grid", 121, 0},    {"random", 200, 1},
+        {"random", 300, 0},  {"halton", 300, 0},     {"hammersley", 257, 0},
+        {"random", 500, 9},  {"random", 400, 10},    {"centred", 225, 0},
+        {"sobol", 256, 0},   {"grid", 121, 0},       {"random", 200, 1},
+        {"halton", 1000, 0}, {"hammersley", 999, 0},
 },
   larger[] = {
       {"random", 1000, 0},   {"halton", 1000, 0},  {"hammersley", 1024, 0},
@@ -503,6 +540,7 @@ int main(void)
     tcase_add_test(tc, no_line_of_a_dense_scan_is_better);
     tcase_add_test(tc, by_hand);
     tcase_add_test(tc, almost_in_line);
+    tcase_add_test(tc, in_line_but_not_in_doubles);
     tcase_add_test(tc, tiny_coordinates);
     tcase_add_test(tc, methods_agree);
     tcase_add_test(tc, symmetries);
