@@ -9,20 +9,20 @@ static uint64_t take_apart(double v, int *exponent)
     return (uint64_t)ldexp(frexp(fabs(v), exponent), 53);
 }
 
-/* Three words on from word i, and the carry as far as it goes; or take them away.
- */
+__extension__ typedef unsigned __int128 two_words;
+
+/* Add three words from word i on, and the carry as far as it goes; or take them
+ * away. */
 static void add_words(ki_wide *sum, const uint64_t *words, int i, bool minus)
 {
     bool carry = false;
 
     for (int j = 0; i + j < KI_WIDE_WORDS && (j < 3 || carry); j++) {
-        uint64_t word = j < 3 ? words[j] : 0, old = sum->word[i + j];
-        uint64_t other = word + carry;
-        bool wrapped = carry && other == 0;
-        uint64_t now = minus ? old - other : old + other;
+        two_words old = sum->word[i + j], word = j < 3 ? words[j] : 0;
+        two_words now = minus ? old - word - carry : old + word + carry;
 
-        carry = wrapped || (minus ? old < other : now < old);
-        sum->word[i + j] = now;
+        sum->word[i + j] = (uint64_t)now;
+        carry = now >> 64 & 1;
     }
 }
 
@@ -31,7 +31,7 @@ static void add_words(ki_wide *sum, const uint64_t *words, int i, bool minus)
 void ki_wide_add(ki_wide *sum, double a, double b)
 {
     int ea, eb;
-    __extension__ unsigned __int128 product = take_apart(a, &ea);
+    two_words product = take_apart(a, &ea);
     uint64_t words[3];
 
     if (a == 0.0 || b == 0.0) return;

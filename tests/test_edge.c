@@ -229,6 +229,12 @@ START_TEST(by_hand)
     check_known(diagonal, 4, 0.5); /* the diagonal and half of the square */
     check_known(opposite, 2, 0.5);
     check_known(zeros, 3, 1.0);
+
+    koksma_half_plane h =
+        solve((koksma_points){zeros, 3, 2}, KOKSMA_EDGE_AUTO, 1).witness;
+
+    for (int k = 0; k < 2; k++) /* no -0 */
+        ck_assert(!signbit(h.from[k]) && !signbit(h.to[k]));
 }
 END_TEST
 
@@ -330,13 +336,16 @@ END_TEST
 static const struct source {
     const char *family;
     size_t n;
-    double levels; /* > 0: moved to a grid of so many steps */
+    double
+        levels; /* > 0: moved to a grid of so many steps; -1, -2, -3, -4:
+                 * crowded at the left, at the bottom, at the right, at the top */
 } sources[] =
     {
-        {"random", 300, 0},  {"halton", 300, 0},     {"hammersley", 257, 0},
-        {"random", 500, 9},  {"random", 400, 10},    {"centred", 225, 0},
-        {"sobol", 256, 0},   {"grid", 121, 0},       {"random", 200, 1},
-        {"halton", 1000, 0}, {"hammersley", 999, 0},
+        {"random", 300, 0},  {"halton", 300, 0},  {"hammersley", 257, 0},
+        {"random", 500, 9},  {"random", 400, 10}, {"centred", 225, 0},
+        {"sobol", 256, 0},   {"grid", 121, 0},    {"random", 200, 1},
+        {"random", 300, -1}, {"random", 300, -2}, {"random", 300, -3},
+        {"random", 300, -4}, {"halton", 1000, 0}, {"hammersley", 999, 0},
 },
   larger[] = {
       {"random", 1000, 0},   {"halton", 1000, 0},  {"hammersley", 1024, 0},
@@ -356,8 +365,14 @@ static koksma_points points_of(const struct source *s)
                      KOKSMA_OK);
     ck_assert_int_eq(koksma_gen_fill(g, x, 0, s->n, NULL), KOKSMA_OK);
     koksma_gen_close(g);
-    for (size_t i = 0; s->levels > 0.0 && i < 2 * s->n; i++)
-        x[i] = round(x[i] * s->levels) / s->levels;
+    for (size_t i = 0; i < 2 * s->n; i++) {
+        if (s->levels > 0.0) x[i] = round(x[i] * s->levels) / s->levels;
+        if (s->levels < 0.0 && (int)-s->levels % 2 == (int)(i + 1) % 2) {
+            double near = 0.05 * pow(x[i], 4.0);
+
+            x[i] = s->levels < -2.0 ? 1.0 - near : near;
+        }
+    }
     return (koksma_points){x, s->n, 2};
 }
 
