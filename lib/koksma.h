@@ -6,6 +6,7 @@
 #include <koksma/bound.h>
 #include <koksma/cells.h>
 #include <koksma/curve.h>
+#include <koksma/edge.h>
 #include <koksma/fit.h>
 #include <koksma/gen.h>
 #include <koksma/integrand.h>

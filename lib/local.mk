@@ -6,6 +6,8 @@ noinst_LTLIBRARIES = %D%/libcore.la
   %D%/cells.c %D%/cells.h %D%/cells_kernels.h %D%/cells_grid.c %D%/cells_line.c \
   %D%/cells_lines.c %D%/cells_occupancy.c %D%/cells_samples.c %D%/cells_slope.c \
   %D%/curve.c %D%/curve.h \
+  %D%/edge.c %D%/edge.h %D%/edge_kernels.h %D%/edge_cell.c %D%/edge_leaf.c \
+  %D%/edge_line.c %D%/edge_run.c %D%/edge_sort.c %D%/edge_sweep.c %D%/edge_tree.c \
   %D%/error.c %D%/error.h \
   %D%/fit.c %D%/fit.h %D%/fit_kernels.h %D%/fit_grid.c %D%/fit_judge.c \
   %D%/fit_line.c %D%/fit_mixture.c \
@@ -26,7 +28,7 @@ noinst_LTLIBRARIES = %D%/libcore.la
   %D%/l2_divide_kernels.h %D%/l2_kinds.c %D%/l2_linear.c %D%/l2_sweep.c \
   %D%/l2_number.c %D%/l2_pairs.c %D%/l2_sort.c %D%/l2_terms.c %D%/l2_tile.c \
   %D%/num.c %D%/num.h %D%/num_kernels.h %D%/num_student.c %D%/num_twice.h \
-  %D%/num_wide.h \
+  %D%/num_exact.c %D%/num_exact.h %D%/num_wide.h \
   %D%/part.c %D%/part.h \
   %D%/points.c %D%/points.h \
   %D%/rng.c %D%/rng.h %D%/rng_kernels.h \
@@ -63,7 +65,8 @@ lib_LTLIBRARIES = %D%/libkoksma.la
 include_HEADERS = %D%/koksma.h
 koksmaincludedir = $(includedir)/koksma
 koksmainclude_HEADERS = \
-  %D%/bound.h %D%/cells.h %D%/curve.h %D%/fit.h %D%/gen.h %D%/integrand.h %D%/io.h %D%/l2.h %D%/num.h \
-  %D%/points.h %D%/rng.h %D%/scene.h %D%/star.h %D%/variation.h
+  %D%/bound.h %D%/cells.h %D%/curve.h %D%/edge.h %D%/fit.h %D%/gen.h \
+  %D%/integrand.h %D%/io.h %D%/l2.h %D%/num.h %D%/points.h %D%/rng.h \
+  %D%/scene.h %D%/star.h %D%/variation.h
 
 pkgconfig_DATA = %D%/koksma.pc

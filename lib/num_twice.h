@@ -8,10 +8,10 @@
 /* Private: numbers of twice the precision of a double, hi + lo with |lo| at most
  * half an ulp of hi.
  *
- * Each of the operations below that is not exact is off by less than 2^-103 of its
- * result: 3 u^2 for the sum, 5 u^2 for the product, u = 2^-53 [Joldes, Muller,
- * Popescu 2017, algorithms 6 and 11], unless a product is below 2^-960; what
- * underflow then loses is below 2^-1070. */
+ * Each of the operations below that is not exact, and says nothing else, is off by
+ * less than 2^-103 of its result: 3 u^2 for the sum, 5 u^2 for the product, u =
+ * 2^-53 [Joldes, Muller, Popescu 2017, algorithms 6 and 11], unless a product is
+ * below 2^-960; what underflow then loses is below 2^-1070. */
 /* Into every version of a loop for other processors, fma as one instruction. */
 #define KI_TWICE_INLINE static inline __attribute__((always_inline))
 
@@ -65,6 +65,19 @@ KI_TWICE_INLINE ki_twice ki_twice_by(ki_twice a, double b)
     ki_twice p = ki_twice_product(a.hi, b);
 
     return ki_twice_normal(p.hi, fma(a.lo, b, p.lo));
+}
+
+/* a / b, off by less than 2^-102 of it.  With u = 2^-53 and q the rounded quotient
+ * of the high parts, a.hi - q b.hi is at most u |a| and a double, so that fma has
+ * it exactly; a.lo - q b.lo is at most 2 u |a| and rounds once, the sum of the two
+ * is at most 3 u |a| and rounds once, its quotient is at most 3 u |a/b|, rounds
+ * once, and is off by another u for b.lo: together 11 u^2. */
+KI_TWICE_INLINE ki_twice ki_twice_divide(ki_twice a, ki_twice b)
+{
+    double q = a.hi / b.hi;
+    double rest = fma(-q, b.hi, a.hi) + fma(-q, b.lo, a.lo);
+
+    return ki_twice_normal(q, rest / b.hi);
 }
 
 /* By a power of two, exactly but for underflow. */

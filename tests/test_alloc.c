@@ -9,6 +9,7 @@
 
 #include "cells.h"
 #include "curve.h"
+#include "edge.h"
 #include "fit.h"
 #include "gen.h"
 #include "io.h"
@@ -115,6 +116,25 @@ static koksma_status pairs_job(koksma_error *err)
 static koksma_status divide_job(koksma_error *err)
 {
     return l2_by(KOKSMA_L2_DIVIDE, err);
+}
+
+static koksma_status edge_by(koksma_edge_method method, koksma_error *err)
+{
+    static const double x[] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.1, 0.2};
+    koksma_edge_opts opts = {.method = method, .threads = 1};
+    koksma_edge_result r;
+
+    return koksma_edge(&r, (koksma_points){x, 4, 2}, &opts, err);
+}
+
+static koksma_status edge_sweep_job(koksma_error *err)
+{
+    return edge_by(KOKSMA_EDGE_SWEEP, err);
+}
+
+static koksma_status edge_tree_job(koksma_error *err)
+{
+    return edge_by(KOKSMA_EDGE_TREE, err);
 }
 
 static koksma_status open_by(const char *name, koksma_scramble scramble,
@@ -340,6 +360,8 @@ START_TEST(every_allocation_may_fail)
     ck_assert_int_ge(exhaust(search_job), 7);
     ck_assert_int_ge(exhaust(pairs_job), 3);
     ck_assert_int_ge(exhaust(divide_job), 8);
+    ck_assert_int_ge(exhaust(edge_sweep_job), 7);
+    ck_assert_int_ge(exhaust(edge_tree_job), 9);
     ck_assert_int_ge(exhaust(gen_job), 5);
     ck_assert_int_ge(exhaust(sobol_job), 3);
     ck_assert_int_ge(exhaust(faure_job), 4);

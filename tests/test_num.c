@@ -7,6 +7,8 @@
 #include <string.h>
 
 #include "num_kernels.h"
+#include "num_twice.h"
+#include "num_exact.h"
 #include "oracle.h"
 
 __extension__ typedef unsigned __int128 wide;
@@ -187,6 +189,56 @@ END_TEST
 
 /* The bound of the header, with |sum| from the total itself:
  * |total - sum| <= 2^-53 |sum| + m 2^-105 sum|terms|. */
+/* Products of 53-bit integers, also far below the range of doubles.  Every other
+ * list is taken back but for one unit, so that all digits matter. */
+START_TEST(signs_of_sums_of_products)
+{
+    for (uint64_t round = 0; round < 2000 * oracle_scale(); round++) {
+        oracle_rng rng = oracle_rng_start(oracle_seed(), round);
+        int down = oracle_below(&rng, 2) ? 53 : 53 + (int)oracle_below(&rng, 1020);
+        ki_wide sum = {{0}};
+        oracle_int want = 0;
+        double a[6], b[6], least = ldexp(1.0, -down);
+
+        for (int i = 0; i < 6; i++) {
+            a[i] = ldexp(oracle_dyadic(&rng, 53), 53 - down);
+            b[i] = ldexp(oracle_dyadic(&rng, 53) - 0.5, 54 - down);
+            ki_wide_add(&sum, a[i], b[i]);
+            want += (oracle_int)ldexp(a[i], down) * (oracle_int)ldexp(b[i], down);
+        }
+        ck_assert_int_eq(ki_wide_sign(&sum), (want > 0) - (want < 0));
+        for (int i = 0; i < 6; i++)
+            ki_wide_add(&sum, -b[i], a[i]);
+        ck_assert_int_eq(ki_wide_sign(&sum), 0);
+        ki_wide_add(&sum, least, -least);
+        ck_assert_int_eq(ki_wide_sign(&sum), -1);
+        ki_wide_add(&sum, -1.0, 1.0);
+        ki_wide_add(&sum, least, 2.0 * least);
+        ck_assert_int_eq(ki_wide_sign(&sum), -1);
+        ki_wide_add(&sum, 1.0, 1.0);
+        ck_assert_int_eq(ki_wide_sign(&sum), 1);
+    }
+}
+END_TEST
+
+/* q b = a up to 2^-102 of a, which a product of twice the precision can just about
+ * see: it is off by 2^-103 itself, and the difference by as much again. */
+START_TEST(quotients)
+{
+    for (uint64_t round = 0; round < 2000 * oracle_scale(); round++) {
+        oracle_rng rng = oracle_rng_start(oracle_seed(), round);
+        ki_twice a = ki_twice_sum(0.5 + oracle_dyadic(&rng, 53),
+                                  ldexp(oracle_dyadic(&rng, 53), -54));
+        ki_twice b = ki_twice_sum(0.5 + oracle_dyadic(&rng, 53),
+                                  ldexp(oracle_dyadic(&rng, 53), -54));
+        ki_twice back = ki_twice_times(ki_twice_divide(a, b), b);
+        ki_twice rest = ki_twice_add(back, ki_twice_negate(a));
+
+        ck_assert(fabs(rest.hi) <= 0x1p-101 * a.hi);
+    }
+}
+END_TEST
+
 START_TEST(compensated_sums)
 {
     static exact off, bound;
@@ -481,6 +533,8 @@ int main(void)
     tcase_set_timeout(tc, 20.0 * (double)oracle_scale());
     tcase_add_test(tc, two_sum_is_exact);
     tcase_add_test(tc, signs_of_sums);
+    tcase_add_test(tc, signs_of_sums_of_products);
+    tcase_add_test(tc, quotients);
     tcase_add_test(tc, compensated_sums);
     tcase_add_test(tc, deviations);
     tcase_add_test(tc, short_dyadic_deviations);
