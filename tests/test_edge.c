@@ -110,8 +110,7 @@ static void check_set(const test_set *s, uint64_t round)
     if (!same(&sweep, &tree)) complain("the tree differs", s, round, &tree);
 }
 
-/* ---- Small sets ----------------------------------------------------------------
- */
+/* ---- Small sets --------------------------------------------------------- */
 
 /* 25 places, so that corners, borders and the middle are there; n of them, in
  * rising order, may be the same. */
@@ -198,8 +197,7 @@ START_TEST(no_line_of_a_dense_scan_is_better)
 }
 END_TEST
 
-/* ---- Known values
- * ----------------------------------------------------------------- */
+/* ---- Known values ------------------------------------------------------- */
 
 static void check_known(const double *x, size_t n, double value)
 {
@@ -330,8 +328,7 @@ START_TEST(tiny_coordinates)
 }
 END_TEST
 
-/* ---- Larger sets
- * --------------------------------------------------------------------- */
+/* ---- Larger sets -------------------------------------------------------- */
 
 static const struct source {
     const char *family;
@@ -452,8 +449,7 @@ START_TEST(symmetries)
 }
 END_TEST
 
-/* ---- Options, stops, refusals
- * --------------------------------------------------------- */
+/* ---- Options, stops, refusals ------------------------------------------- */
 
 START_TEST(tolerance_and_stages)
 {
