@@ -338,11 +338,12 @@ static const struct source {
                  * crowded at the left, at the bottom, at the right, at the top */
 } sources[] =
     {
-        {"random", 300, 0},  {"halton", 300, 0},  {"hammersley", 257, 0},
-        {"random", 500, 9},  {"random", 400, 10}, {"centred", 225, 0},
-        {"sobol", 256, 0},   {"grid", 121, 0},    {"random", 200, 1},
-        {"random", 300, -1}, {"random", 300, -2}, {"random", 300, -3},
-        {"random", 300, -4}, {"halton", 1000, 0}, {"hammersley", 999, 0},
+        {"random", 300, 0},  {"halton", 300, 0},     {"hammersley", 257, 0},
+        {"random", 500, 9},  {"random", 400, 10},    {"centred", 225, 0},
+        {"sobol", 256, 0},   {"grid", 121, 0},       {"random", 200, 1},
+        {"random", 600, 20}, {"halton", 700, 24},    {"random", 300, -1},
+        {"random", 300, -2}, {"random", 300, -3},    {"random", 300, -4},
+        {"halton", 1000, 0}, {"hammersley", 999, 0},
 },
   larger[] = {
       {"random", 1000, 0},   {"halton", 1000, 0},  {"hammersley", 1024, 0},
