@@ -13,7 +13,8 @@
  *
  *   edge_line.c    which side of a line a point is on, and the area there, exactly
  *   edge_run.c     the best half-plane so far, and what threads share
- *   edge_sweep.c   all lines about a point
+ *   edge_about.c   all lines about a point
+ *   edge_sweep.c   about all points, or a few to begin with
  *   edge_tree.c    branch and bound over cells of lines
  *   edge_cell.c    the points that matter to a cell
  *   edge_leaf.c    the lines of a small cell
@@ -61,6 +62,16 @@ typedef struct ki_edge_list {
     double under; /* points surely below all lines of the cell, not in the list */
 } ki_edge_list;
 
+/* All points. */
+static inline ki_edge_list ki_edge_whole(const ki_edge_points *p, int pass)
+{
+    return (ki_edge_list){.x = p->x[pass],
+                          .y = p->x[1 - pass],
+                          .w = p->w,
+                          .count = p->count,
+                          .pass = pass};
+}
+
 static inline double ki_edge_weight(const double *w, size_t i)
 {
     return w != NULL ? w[i] : 1.0;
@@ -95,8 +106,7 @@ static inline double ki_edge_area_below(double u, double v)
     return 1.0 - 0.5 * (1.0 - low) * ((1.0 - low) / (high - low));
 }
 
-/* ---- Lines ---------------------------------------------------------------------
- */
+/* ---- Lines -------------------------------------------------------------- */
 
 /* The sign of (b - a) x (p - a): 1 where p is left of the line from a to b, 0 on
  * it. Exact; coordinates in [-1,2]. */
@@ -112,8 +122,7 @@ ki_twofold ki_edge_excess(const double *a, const double *b, size_t inside,
  * that corner. */
 bool ki_edge_chord(double end[2][2], double x, double y);
 
-/* ---- The run -------------------------------------------------------------------
- */
+/* ---- The run ------------------------------------------------------------ */
 
 typedef struct ki_edge_run {
     const koksma_edge_opts *opts;
@@ -157,8 +166,7 @@ void ki_edge_run_stage(ki_edge_run *r, double factor, ki_edge_stage *stage,
                        void *state);
 void ki_edge_run_stages(ki_edge_run *r, ki_edge_stage *stage, void *state);
 
-/* ---- The sweep
- * ------------------------------------------------------------------- */
+/* ---- The sweep ---------------------------------------------------------- */
 
 /* A point as the line turns about another one: where it is met. */
 typedef struct ki_edge_event {
@@ -198,8 +206,7 @@ void ki_edge_climb(ki_edge_run *r, const ki_edge_points *p);
 
 void ki_edge_sweep(ki_edge_run *r, const ki_edge_points *p);
 
-/* ---- The tree
- * -------------------------------------------------------------------- */
+/* ---- The tree ----------------------------------------------------------- */
 
 void ki_edge_tree(ki_edge_run *r, const ki_edge_points *p);
 

@@ -104,8 +104,7 @@ void ki_edge_leaf(ki_edge_run *r, const ki_edge_list *l, const ki_edge_cell *c)
     }
 }
 
-/* ---- Many points that no smaller cell parts
- * ------------------------------------------ */
+/* ---- Many points that no smaller cell parts ----------------------------- */
 
 /* Points farthest left and right; returns whether all are exactly on the line
  * through them. */

@@ -24,8 +24,7 @@ int ki_edge_side(const double *a, const double *b, const double *p)
     return ki_wide_sign(&sum);
 }
 
-/* ---- Areas, with twice the precision
- * --------------------------------------------- */
+/* ---- Areas, with twice the precision ------------------------------------ */
 
 /* The area of { |x| a + |y| b <= t } in the unit square for 0 <= b <= a and t at
  * most half of a + b: a triangle until t reaches b, and then a trapezoid.  t is off
@@ -105,8 +104,7 @@ koksma_interval koksma_half_plane_local(const koksma_half_plane *h, koksma_point
     return ki_divide(ki_edge_excess(h->from, h->to, inside, p.n), p.n);
 }
 
-/* ---- Chords
- * ------------------------------------------------------------------------ */
+/* ---- Chords ------------------------------------------------------------- */
 
 /* 2v and 2v - 1 are exact where they are taken. */
 bool ki_edge_chord(double end[2][2], double x, double y)

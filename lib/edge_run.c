@@ -52,8 +52,7 @@ void ki_edge_give_up(ki_edge_run *r)
     ki_team_stop(r->team);
 }
 
-/* ---- The incumbent --------------------------------------------------------------
- */
+/* ---- The incumbent ------------------------------------------------------ */
 
 static int compare(const double *a, const double *b)
 {
@@ -133,8 +132,7 @@ void ki_edge_offer_corners(ki_edge_run *r, const ki_edge_points *p)
     }
 }
 
-/* ---- Stages
- * ------------------------------------------------------------------------ */
+/* ---- Stages ------------------------------------------------------------- */
 
 void ki_edge_run_stage(ki_edge_run *r, double factor, ki_edge_stage *stage,
                        void *state)

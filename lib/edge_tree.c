@@ -185,15 +185,6 @@ static void dive(tree *t, worker *w, int pass)
     }
 }
 
-static ki_edge_list whole(const ki_edge_points *p, int pass)
-{
-    return (ki_edge_list){.x = p->x[pass],
-                          .y = p->x[1 - pass],
-                          .w = p->w,
-                          .count = p->count,
-                          .pass = pass};
-}
-
 static void work_task(void *state, size_t thread, size_t task)
 {
     tree *t = state;
@@ -203,7 +194,7 @@ static void work_task(void *state, size_t thread, size_t task)
     double side = 3.0 / TASKS_ACROSS;
     ki_edge_cell c = {-1.0 + side * (double)(place % TASKS_ACROSS),
                       -1.0 + side * (double)(place / TASKS_ACROSS), side};
-    ki_edge_list l = whole(t->p, pass);
+    ki_edge_list l = ki_edge_whole(t->p, pass);
 
     if (is_too_steep(&c) || ki_edge_told_to_stop(t->run, &w->work)) return;
     if (!make_room(t, w, l.count)) {

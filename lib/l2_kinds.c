@@ -31,7 +31,7 @@ const char *const koksma_l2_names[KOKSMA_L2_KINDS] = {
  * others lie between 1/4 and 2. */
 const ki_l2_row ki_l2_rows[KOKSMA_L2_KINDS] = {
     [KOKSMA_L2_STAR] = {1, 3, 1, 0, 1, 1, 16, 0},
-    [KOKSMA_L2_EXTREME] = {1, 12, 1, 0, 2, 2, 3},
+    [KOKSMA_L2_EXTREME] = {1, 12, 1, 0, 2, 2, 3, 0},
     [KOKSMA_L2_PERIODIC] = {1, 3, -1, 0, 1, 3, 64, 3},
     [KOKSMA_L2_CENTERED] = {13, 12, 1, 0, 2, 2, 64, 0},
     [KOKSMA_L2_WRAPAROUND] = {4, 3, -1, 0, 1, 2, 64, 3},

@@ -6,7 +6,7 @@ noinst_LTLIBRARIES = %D%/libcore.la
   %D%/cells.c %D%/cells.h %D%/cells_kernels.h %D%/cells_grid.c %D%/cells_line.c \
   %D%/cells_lines.c %D%/cells_occupancy.c %D%/cells_samples.c %D%/cells_slope.c \
   %D%/curve.c %D%/curve.h \
-  %D%/edge.c %D%/edge.h %D%/edge_kernels.h %D%/edge_cell.c %D%/edge_leaf.c \
+  %D%/edge.c %D%/edge.h %D%/edge_kernels.h %D%/edge_about.c %D%/edge_cell.c %D%/edge_leaf.c \
   %D%/edge_line.c %D%/edge_run.c %D%/edge_sort.c %D%/edge_sweep.c %D%/edge_tree.c \
   %D%/error.c %D%/error.h \
   %D%/fit.c %D%/fit.h %D%/fit_kernels.h %D%/fit_grid.c %D%/fit_judge.c \

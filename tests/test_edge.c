@@ -110,8 +110,7 @@ static void check_set(const test_set *s, uint64_t round)
     if (!same(&sweep, &tree)) complain("the tree differs", s, round, &tree);
 }
 
-/* ---- Small sets ----------------------------------------------------------------
- */
+/* ---- Small sets --------------------------------------------------------- */
 
 /* 25 places, so that corners, borders and the middle are there; n of them, in
  * rising order, may be the same. */
@@ -198,8 +197,7 @@ START_TEST(no_line_of_a_dense_scan_is_better)
 }
 END_TEST
 
-/* ---- Known values
- * ----------------------------------------------------------------- */
+/* ---- Known values ------------------------------------------------------- */
 
 static void check_known(const double *x, size_t n, double value)
 {
@@ -330,8 +328,7 @@ START_TEST(tiny_coordinates)
 }
 END_TEST
 
-/* ---- Larger sets
- * --------------------------------------------------------------------- */
+/* ---- Larger sets -------------------------------------------------------- */
 
 static const struct source {
     const char *family;
@@ -341,11 +338,12 @@ static const struct source {
                  * crowded at the left, at the bottom, at the right, at the top */
 } sources[] =
     {
-        {"random", 300, 0},  {"halton", 300, 0},  {"hammersley", 257, 0},
-        {"random", 500, 9},  {"random", 400, 10}, {"centred", 225, 0},
-        {"sobol", 256, 0},   {"grid", 121, 0},    {"random", 200, 1},
-        {"random", 300, -1}, {"random", 300, -2}, {"random", 300, -3},
-        {"random", 300, -4}, {"halton", 1000, 0}, {"hammersley", 999, 0},
+        {"random", 300, 0},  {"halton", 300, 0},     {"hammersley", 257, 0},
+        {"random", 500, 9},  {"random", 400, 10},    {"centred", 225, 0},
+        {"sobol", 256, 0},   {"grid", 121, 0},       {"random", 200, 1},
+        {"random", 600, 20}, {"halton", 700, 24},    {"random", 300, -1},
+        {"random", 300, -2}, {"random", 300, -3},    {"random", 300, -4},
+        {"halton", 1000, 0}, {"hammersley", 999, 0},
 },
   larger[] = {
       {"random", 1000, 0},   {"halton", 1000, 0},  {"hammersley", 1024, 0},
@@ -452,8 +450,7 @@ START_TEST(symmetries)
 }
 END_TEST
 
-/* ---- Options, stops, refusals
- * --------------------------------------------------------- */
+/* ---- Options, stops, refusals ------------------------------------------- */
 
 START_TEST(tolerance_and_stages)
 {
