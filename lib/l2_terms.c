@@ -67,9 +67,9 @@ KI_L2_INLINE ki_twice base(koksma_l2_kind kind, double x, double add)
     return ki_twice_sum(0.5 + add, x);
 }
 
-KI_L2_FMA_CLONES void ki_l2_weigh(const ki_l2_call *call, const double *x,
-                                  const uint32_t *point, size_t count,
-                                  ki_twice *weight)
+KI_L2_FMA_CLONES static void weigh(const ki_l2_call *call, const double *x,
+                                   const uint32_t *point, size_t count,
+                                   ki_twice *weight)
 {
     for (size_t i = 0; i < count; i++)
         weight[i] = single(1.0);
@@ -84,6 +84,14 @@ KI_L2_FMA_CLONES void ki_l2_weigh(const ki_l2_call *call, const double *x,
                                                                 r == 0 ? 1 : -1));
         }
     }
+}
+
+/* Versions stay in their file, since compilers differ in how others are to name
+ * them. */
+void ki_l2_weigh(const ki_l2_call *call, const double *x, const uint32_t *point,
+                 size_t count, ki_twice *weight)
+{
+    weigh(call, x, point, count, weight);
 }
 
 /* k(x,x), without the factor 2^twos. */
@@ -103,7 +111,7 @@ KI_L2_INLINE ki_twice same(koksma_l2_kind kind, double x)
     return single(1.0);
 }
 
-KI_L2_FMA_CLONES ki_twice ki_l2_own(koksma_l2_kind kind, koksma_points p)
+KI_L2_FMA_CLONES static ki_twice own(koksma_l2_kind kind, koksma_points p)
 {
     ki_twice_total sum = {0.0, 0.0, 0};
 
@@ -116,3 +124,5 @@ KI_L2_FMA_CLONES ki_twice ki_l2_own(koksma_l2_kind kind, koksma_points p)
     }
     return ki_twice_total_value(&sum);
 }
+
+ki_twice ki_l2_own(koksma_l2_kind kind, koksma_points p) { return own(kind, p); }

@@ -531,7 +531,7 @@ START_TEST(refusals)
                      KOKSMA_EINVAL);
     ck_assert_int_eq(koksma_edge(&r, (koksma_points){x, 1, 2}, &bad, &err),
                      KOKSMA_EINVAL);
-    bad.tolerance = NAN;
+    bad.tolerance = (double)NAN;
     ck_assert_int_eq(koksma_edge(&r, (koksma_points){x, 1, 2}, &bad, &err),
                      KOKSMA_EINVAL);
     bad = (koksma_edge_opts){.method = (koksma_edge_method)3};

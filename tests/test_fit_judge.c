@@ -138,7 +138,7 @@ START_TEST(saturated)
         koksma_fit_result f = known(value, 0.01);
         koksma_verdict sure = value == -0.75 ? KOKSMA_EQUIVALENT : KOKSMA_DIFFERENT;
 
-        f.saturation = nextafter(f.to, INFINITY);
+        f.saturation = nextafter(f.to, HUGE_VAL);
         check_doubt(&f, KOKSMA_UNDECIDED, KOKSMA_DOUBT_SATURATED);
         f.shape = KOKSMA_FLATTENS;
         check_doubt(&f, KOKSMA_UNDECIDED, KOKSMA_DOUBT_SATURATED);

@@ -196,7 +196,7 @@ static double distance(const double *a, const double *b, size_t dim, bool torus)
 
 static double nearest(const koksma_gen_opts *o)
 {
-    double least = INFINITY;
+    double least = HUGE_VAL;
 
     for (size_t i = 0; i < o->n; i++)
         for (size_t j = 0; j < i; j++) {
