@@ -60,13 +60,12 @@ check-big:
 
 # CK_FORK=no, and libtool's execute mode: valgrind is to see the test and not the
 # shell script that libtool puts in front of it.  Cases tagged slow are left out, and
-# those of many threads, which it runs one at a time.
+# those of many threads, which it runs one at a time.  Two programs run side by side.
 check-valgrind: $(check_PROGRAMS)
-	for test in $(unit_tests); do \
-	  CK_FORK=no CK_EXCLUDE_TAGS='big slow threads' top_srcdir='$(top_srcdir)' KOKSMA_EXTRA_SETS= \
-	    $(LIBTOOL) --mode=execute $(VALGRIND) -q --error-exitcode=9 --leak-check=full \
-	    ./$$test || [ $$? -eq 77 ] || exit 1; \
-	done
+	printf '%s\n' $(unit_tests) | CK_FORK=no CK_EXCLUDE_TAGS='big slow threads' \
+	  top_srcdir='$(top_srcdir)' KOKSMA_EXTRA_SETS= xargs -P 2 -I TEST sh -c \
+	    '$(LIBTOOL) --mode=execute $(VALGRIND) -q --error-exitcode=9 \
+	      --leak-check=full ./TEST || [ $$? -eq 77 ]'
 
 # A build of its own, in sanitize/, with its own flags.
 SANITIZE = -g -O1 -fno-omit-frame-pointer -fsanitize=address,undefined \
