@@ -24,7 +24,7 @@ typedef int64_t masks __attribute__((vector_size(KI_EDGE_LANES * sizeof(double))
 void ki_edge_pad(double *x, double *y, double *w, size_t count)
 {
     for (size_t i = count; i < count + KI_EDGE_LANES; i++) {
-        x[i] = y[i] = NAN;
+        x[i] = y[i] = (double)NAN;
         if (w != NULL) w[i] = 0.0;
     }
 }
