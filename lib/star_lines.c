@@ -76,13 +76,14 @@ static void work_on(void *state, size_t thread, size_t number)
 }
 
 /* How many tasks there should be: shares of equal work take many, and must not
- * depend on the threads. */
+ * depend on the threads.  In the plane cells are much alike, and to make tasks of
+ * them costs more than a thread that waits at the end. */
 static size_t enough_tasks(const search *s)
 {
     size_t threads = ki_team_threads(s->run.team);
 
     if (s->parts > 1) return 64 * s->parts;
-    return threads > 1 ? 16 * threads : 1;
+    return threads == 1 || s->grid.axes == 1 ? threads : 16 * threads;
 }
 
 static void pass(search *s, bool scout)
