@@ -1,5 +1,5 @@
+#include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "error.h"
 #include "l2_divide_kernels.h"
@@ -33,146 +33,32 @@
  * up, with the 128 for those of the lanes and of short sums.  The sums of the loops
  * are w->added numbers, which lose 36 2^-106 of all pairs of the task for each. */
 
-enum {
-    LEVELS = 6,
-    LEAF = 2048,
-    BLOCK = 256,
-    AHEAD = 16
-}; /* tasks: 2^(LEVELS+1) - 1, of LEAF points at least; weights; prefetches */
+/* Tasks are 2^(LEVELS+1) - 1 at most, of LEAF points at least; weights come in
+ * blocks. */
+enum { LEVELS = 6, LEAF = 2048, BLOCK = 256 };
 
 typedef struct divide {
     ki_l2_job *job;
     const ki_l2_terms *terms;
-    size_t levels; /* of cuts with a task each; below, a task a part */
-    ki_l2_key *key;
-    uint32_t **by;    /* by[k][j]: the point of rank j along axis k */
-    uint32_t **rank;  /* and its inverse, of axes from 1 on */
-    uint32_t *last;   /* the items' ranks along the last axis */
-    uint32_t **order; /* items by level: in parts, each by coordinate 0 */
-    ki_l2_slot *item; /* the points, by their first coordinate with a core */
+    ki_l2_items items;
     ki_l2_worker *worker;
     ki_twice *sum; /* of each task */
     double *loss;
     ki_l2_call call;
-    size_t axes, axis[KOKSMA_L2_DIVIDE_DIM]; /* those with a core */
     ki_twice all;
     double error;
 } divide;
 
 static size_t tasks_of(const divide *s)
 {
-    return s->axes < 2 ? 1 : ((size_t)2 << s->levels) - 1;
-}
-
-static void rank_points(divide *s, size_t k)
-{
-    koksma_points p = s->job->p;
-    const ki_l2_key *sorted;
-
-    for (size_t i = 0; i < p.n; i++) {
-        double x = p.x[i * p.dim + k] + 0.0; /* -0 is 0 */
-
-        memcpy(&s->key[i].bits, &x, sizeof x);
-        s->key[i].point = i;
-    }
-    sorted = ki_l2_sort(s->key, s->key + p.n, p.n);
-    for (size_t j = 0; j < p.n; j++) {
-        s->by[k][j] = (uint32_t)sorted[j].point;
-        if (k > 0) s->rank[k][sorted[j].point] = (uint32_t)j;
-    }
-}
-
-/* ---- The items of one choice of axes -------------------------------------------
- */
-
-/* Part j of a level with `parts` parts begins at this rank along the last axis. */
-static size_t begin_of(size_t n, size_t parts, size_t j)
-{
-    return n / parts * j + n % parts * j / parts;
-}
-
-/* One level's order from the one above: parts are cut in two, stably. */
-static void refine(divide *s, size_t level)
-{
-    size_t n = s->job->p.n, parts = (size_t)1 << level;
-
-    for (size_t j = 0; j < parts / 2; j++) {
-        size_t begin = begin_of(n, parts, 2 * j);
-        size_t cut = begin_of(n, parts, 2 * j + 1);
-        size_t end = begin_of(n, parts, 2 * j + 2), to[2] = {begin, cut};
-
-        for (size_t i = begin; i < end; i++) {
-            uint32_t item = s->order[level - 1][i];
-
-            s->order[level][to[s->last[item] >= cut]++] = item;
-        }
-    }
-}
-
-static void arrange(divide *s)
-{
-    koksma_points p = s->job->p;
-    size_t stride = ki_l2_coordinates(s->axes) + s->axes;
-
-    for (size_t i = 0; i < ki_team_threads(s->job->team); i++) {
-        s->worker[i].axes = s->axes;
-        s->worker[i].stride = stride;
-    }
-    for (size_t j = 0; j < p.n; j++) {
-        const uint32_t *by = s->by[s->axis[0]];
-        size_t point = by[j], ahead = by[j + AHEAD < p.n ? j + AHEAD : j];
-        ki_l2_slot *item = s->item + j * stride;
-
-        __builtin_prefetch(p.x + ahead * p.dim);
-        __builtin_prefetch(s->rank[s->axis[1]] + ahead);
-        item[KI_L2_RANKS].rank[0] = 0;
-        for (size_t k = 1; k < s->axes; k++)
-            *ki_l2_rank(item, k) = s->last[j] = s->rank[s->axis[k]][point];
-        item += ki_l2_coordinates(s->axes);
-        for (size_t k = 0; k < s->axes; k++)
-            item[k].x = p.x[point * p.dim + s->axis[k]];
-        s->order[0][j] = (uint32_t)j;
-    }
-    for (size_t level = 1; level <= s->levels; level++)
-        refine(s, level);
-}
-
-static void weigh_items(divide *s)
-{
-    size_t n = s->job->p.n, stride = s->worker->stride;
-    ki_twice weight[BLOCK];
-
-    for (size_t j = 0; j < n; j += BLOCK) {
-        size_t count = n - j < BLOCK ? n - j : BLOCK;
-
-        ki_l2_weigh(&s->call, s->job->p.x, s->by[s->axis[0]] + j, count, weight);
-        for (size_t i = 0; i < count; i++) {
-            s->item[(j + i) * stride].x = weight[i].hi;
-            s->item[(j + i) * stride + 1].x = weight[i].lo;
-        }
-    }
+    return s->items.axes < 2 ? 1 : ((size_t)2 << s->items.levels) - 1;
 }
 
 /* ---- Tasks ------------------------------------------------------------------- */
 
-/* The list of part j of a level. */
-static ki_l2_list gather(const divide *s, ki_l2_slot *to, size_t level, size_t j)
-{
-    size_t n = s->job->p.n, begin = begin_of(n, (size_t)1 << level, j);
-    size_t end = begin_of(n, (size_t)1 << level, j + 1), stride = s->worker->stride;
-    ki_l2_list l = {to, end - begin, 0, (uint32_t)begin, (uint32_t)end, false};
-
-    for (size_t i = begin; i < end; i++, to += stride) {
-        size_t ahead = i + AHEAD < end ? i + AHEAD : i;
-
-        __builtin_prefetch(s->item + s->order[level][ahead] * stride);
-        ki_l2_copy(to, s->item + s->order[level][i] * stride, stride);
-    }
-    return l;
-}
-
 static void work_on_part(const divide *s, ki_l2_worker *w, size_t task)
 {
+    const ki_l2_items *t = &s->items;
     size_t n = s->job->p.n, level = 0, parts = 1, first = 0;
 
     while (task >= first + parts) {
@@ -182,22 +68,24 @@ static void work_on_part(const divide *s, ki_l2_worker *w, size_t task)
     }
 
     ki_l2_slot *item = w->spare + n * w->stride;
-    ki_l2_list l = gather(s, item, level, task - first);
+    ki_l2_list l = ki_l2_items_gather(t, item, level, task - first);
 
     w->copies = item + l.n * w->stride;
-    if (level == s->levels)
-        ki_l2_solve(w, s->axes, l);
+    if (level == t->levels)
+        ki_l2_solve(w, t->axes, l);
     else
-        ki_l2_apart(w, s->axes, l,
-                    (uint32_t)begin_of(n, parts * 2, 2 * (task - first) + 1));
+        ki_l2_apart(
+            w, t->axes, l,
+            (uint32_t)ki_l2_part_begin(n, parts * 2, 2 * (task - first) + 1));
     w->loss += 36.0 * w->added * 0.5 * (double)l.n * (double)l.n;
 }
 
 /* All pairs of all points, with one axis or none. */
 static void work_on_line(const divide *s, ki_l2_worker *w)
 {
+    const ki_l2_items *t = &s->items;
     koksma_points p = s->job->p;
-    const uint32_t *by = s->by[s->axes == 0 ? 0 : s->axis[0]];
+    const uint32_t *by = t->by[t->axes == 0 ? 0 : t->axis[0]];
     ki_twice_total before = {0.0, 0.0, 0};
     ki_twice weight[BLOCK];
     double x[BLOCK];
@@ -206,9 +94,9 @@ static void work_on_line(const divide *s, ki_l2_worker *w)
         size_t count = p.n - j < BLOCK ? p.n - j : BLOCK;
 
         ki_l2_weigh(&s->call, p.x, by + j, count, weight);
-        for (size_t i = 0; s->axes > 0 && i < count; i++)
-            x[i] = p.x[by[j + i] * p.dim + s->axis[0]];
-        ki_l2_loops_of[w->core].pass(w, &before, s->axes > 0 ? x : NULL, weight,
+        for (size_t i = 0; t->axes > 0 && i < count; i++)
+            x[i] = p.x[by[j + i] * p.dim + t->axis[0]];
+        ki_l2_loops_of[w->core].pass(w, &before, t->axes > 0 ? x : NULL, weight,
                                      count);
     }
     ki_l2_count(w, (double)p.n, 0.5 * (double)p.n * (double)p.n);
@@ -221,7 +109,7 @@ static void work_on(void *state, size_t worker, size_t task)
 
     w->sum = (ki_twice_total){0.0, 0.0, 0};
     w->added = w->loss = w->steps = 0.0;
-    if (s->axes < 2)
+    if (s->items.axes < 2)
         work_on_line(s, w);
     else
         work_on_part(s, w, task);
@@ -238,7 +126,7 @@ static void solve_call(divide *s)
     double n = (double)s->job->p.n, dim = (double)s->job->p.dim, loss = 0.0;
     ki_twice sum = {0.0, 0.0};
 
-    if (s->axes >= 2) weigh_items(s);
+    if (s->items.axes >= 2) ki_l2_items_weigh(&s->items, &s->call);
     ki_team_run(s->job->team, tasks, work_on, s);
     for (size_t i = 0; i < tasks; i++) {
         sum = ki_twice_add(sum, s->sum[i]);
@@ -275,20 +163,25 @@ static void choose_terms(divide *s, size_t digits)
 /* The terms with cores along the axes whose bits are set. */
 static void solve_axes(divide *s, size_t set)
 {
+    ki_l2_items *t = &s->items;
     size_t choices = 1;
 
-    s->axes = 0;
+    t->axes = 0;
     for (size_t k = 0; k < s->call.dim; k++) {
         bool core = (set >> k & 1) != 0;
 
         s->call.term[k] = core ? -1 : 0;
         if (core)
-            s->axis[s->axes++] = k;
+            t->axis[t->axes++] = k;
         else
             choices *= (size_t)s->terms->count;
     }
     if (choices == 0) return;
-    if (s->axes >= 2) arrange(s);
+    if (t->axes >= 2) ki_l2_items_arrange(t);
+    for (size_t i = 0; i < ki_team_threads(s->job->team); i++) {
+        s->worker[i].axes = t->axes;
+        s->worker[i].stride = t->stride;
+    }
     for (size_t j = 0; j < choices && !ki_team_stopped(s->job->team); j++) {
         choose_terms(s, j);
         solve_call(s);
@@ -301,8 +194,7 @@ static ki_l2_number solve(divide *s)
     double n = (double)p.n, dim = (double)p.dim;
     ki_twice own = ki_l2_own(s->job->kind, p);
 
-    for (size_t k = 0; k < p.dim; k++)
-        rank_points(s, k);
+    ki_l2_items_rank(&s->items);
     for (size_t set = (size_t)1 << p.dim; set-- > 0;)
         solve_axes(s, set);
 
@@ -316,35 +208,12 @@ static ki_l2_number solve(divide *s)
 
 /* ---- Room -------------------------------------------------------------------- */
 
-static uint32_t **tables(size_t count, size_t n)
-{
-    uint32_t **t = calloc(count, sizeof *t);
-
-    for (size_t i = 0; t != NULL && i < count; i++) {
-        t[i] = ki_alloc(n, sizeof **t);
-        if (t[i] != NULL) continue;
-        while (i-- > 0)
-            free(t[i]);
-        free(t);
-        return NULL;
-    }
-    return t;
-}
-
-static void free_tables(uint32_t **t, size_t count)
-{
-    for (size_t i = 0; t != NULL && i < count; i++)
-        free(t[i]);
-    free(t);
-}
-
 /* A worker's room: the list, as many items to spare, and copies for each axis but
  * the first two. */
 static bool make_room(divide *s, ki_l2_worker *w, size_t n)
 {
     size_t dim = s->job->p.dim, items, size;
 
-    w->core = s->terms->core;
     if (dim < 2) return true;
     if (__builtin_mul_overflow(n, dim, &items) ||
         __builtin_mul_overflow(items, ki_l2_coordinates(dim) + dim, &size))
@@ -356,23 +225,16 @@ static bool make_room(divide *s, ki_l2_worker *w, size_t n)
 static bool make(divide *s)
 {
     koksma_points p = s->job->p;
-    size_t threads = ki_team_threads(s->job->team), tasks;
+    size_t threads = ki_team_threads(s->job->team), levels = 0, tasks;
 
-    while (p.dim > 1 && s->levels < LEVELS && p.n >> s->levels >= 2 * LEAF)
-        s->levels++;
-    tasks = ((size_t)2 << s->levels) - 1;
-    s->key = ki_alloc(p.n, 2 * sizeof *s->key);
-    s->item = ki_alloc(p.n, (ki_l2_coordinates(p.dim) + p.dim) * sizeof *s->item);
-    s->by = tables(p.dim, p.n);
-    s->rank = tables(p.dim, p.n);
-    s->order = tables(s->levels + 1, p.n);
-    s->last = ki_alloc(p.n, sizeof *s->last);
+    while (p.dim > 1 && levels < LEVELS && p.n >> levels >= 2 * LEAF)
+        levels++;
+    tasks = ((size_t)2 << levels) - 1;
     s->sum = calloc(tasks, sizeof *s->sum);
     s->loss = calloc(tasks, sizeof *s->loss);
     s->worker = calloc(threads, sizeof *s->worker);
-    if (s->key == NULL || s->item == NULL || s->by == NULL || s->rank == NULL ||
-        s->order == NULL || s->last == NULL || s->sum == NULL || s->loss == NULL ||
-        s->worker == NULL)
+    if (!ki_l2_items_make(&s->items, p, levels) || s->sum == NULL ||
+        s->loss == NULL || s->worker == NULL)
         return false;
     for (size_t i = 0; i < threads; i++) {
         s->worker[i].core = s->terms->core;
@@ -389,15 +251,10 @@ koksma_status ki_l2_divide(ki_l2_number *sum, ki_l2_job *job)
     bool made = make(&s);
 
     if (made) *sum = solve(&s);
-    free(s.key);
-    free(s.item);
-    free_tables(s.by, job->p.dim);
-    free_tables(s.rank, job->p.dim);
-    free_tables(s.order, s.levels + 1);
+    ki_l2_items_free(&s.items);
     for (size_t i = 0; s.worker != NULL && i < ki_team_threads(job->team); i++)
         free(s.worker[i].spare);
     free(s.worker);
-    free(s.last);
     free(s.sum);
     free(s.loss);
     return made ? KOKSMA_OK : KOKSMA_ENOMEM;

@@ -82,6 +82,35 @@ typedef struct ki_l2_list {
     bool across;
 } ki_l2_list;
 
+/* The points of all lists, by l2_items.c. */
+typedef struct ki_l2_items {
+    koksma_points p;
+    size_t levels; /* of cuts with a task each; below, a task a part */
+    ki_l2_key *key;
+    uint32_t **by;    /* by[k][j]: the point of rank j along axis k */
+    uint32_t **rank;  /* and its inverse, of axes from 1 on */
+    uint32_t *last;   /* the items' ranks along the last axis */
+    uint32_t **order; /* items by level: in parts, each by coordinate 0 */
+    ki_l2_slot *item; /* the points, by their first coordinate with a core */
+    size_t axes, axis[KOKSMA_L2_DIVIDE_DIM]; /* those with a core */
+    size_t stride;                           /* slots of an item */
+} ki_l2_items;
+
+/* Returns false without memory; free it then too. */
+bool ki_l2_items_make(ki_l2_items *s, koksma_points p, size_t levels);
+void ki_l2_items_free(ki_l2_items *s);
+
+void ki_l2_items_rank(ki_l2_items *s);    /* along each axis: once */
+void ki_l2_items_arrange(ki_l2_items *s); /* for these axes, two or more */
+void ki_l2_items_weigh(ki_l2_items *s, const ki_l2_call *call);
+
+/* Part j of a level with so many parts begins at this rank along the last axis. */
+size_t ki_l2_part_begin(size_t n, size_t parts, size_t j);
+
+/* The list of part j of a level, copied to `to`. */
+ki_l2_list ki_l2_items_gather(const ki_l2_items *s, ki_l2_slot *to, size_t level,
+                              size_t j);
+
 typedef struct ki_l2_worker {
     ki_l2_core core;
     size_t axes, stride; /* of the whole list; slots of an item */

@@ -25,8 +25,8 @@ noinst_LTLIBRARIES = %D%/libcore.la
   %D%/io.c %D%/io.h %D%/io_kernels.h %D%/io_about.c %D%/io_lines.c %D%/io_npy.c \
   %D%/io_number.c %D%/io_table.c %D%/io_text.c %D%/io_write.c \
   %D%/l2.c %D%/l2.h %D%/l2_kernels.h %D%/l2_cut.c %D%/l2_divide.c \
-  %D%/l2_divide_kernels.h %D%/l2_kinds.c %D%/l2_linear.c %D%/l2_sweep.c \
-  %D%/l2_number.c %D%/l2_pairs.c %D%/l2_sort.c %D%/l2_terms.c %D%/l2_tile.c \
+  %D%/l2_divide_kernels.h %D%/l2_items.c %D%/l2_kinds.c %D%/l2_linear.c \
+  %D%/l2_sweep.c %D%/l2_number.c %D%/l2_pairs.c %D%/l2_sort.c %D%/l2_terms.c %D%/l2_tile.c \
   %D%/num.c %D%/num.h %D%/num_kernels.h %D%/num_student.c %D%/num_twice.h \
   %D%/num_exact.c %D%/num_exact.h %D%/num_wide.h \
   %D%/part.c %D%/part.h \
