@@ -87,7 +87,8 @@ void koksma_gen_close(koksma_gen *g)
 
 /* The kernels fill a coordinate at a time.  In blocks that stay in the cache the
  * rows are there when the next coordinate comes. */
-static void fill_blocks(const koksma_gen *g, double *x, uint64_t first, size_t count)
+static void fill_blocks(const koksma_gen *g, double *x, uint64_t first,
+                        size_t count)
 {
     size_t block = 8192 / g->opts.dim + 16;
 

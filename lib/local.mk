@@ -22,16 +22,16 @@ noinst_LTLIBRARIES = %D%/libcore.la
   %D%/points.c %D%/points.h \
   %D%/rng.c %D%/rng.h \
   %D%/scene.c %D%/scene.h %D%/scene_kernels.h \
-  %D%/star.c %D%/star.h %D%/star_kernels.h %D%/star_sweep.c \
-  %D%/star_best.c %D%/star_bound.c %D%/star_bound_closed.c \
-  %D%/star_bound_open.c %D%/star_cell.c %D%/star_climb.c \
-  %D%/star_climb_kernels.h %D%/star_dem.c %D%/star_dem_cell.c \
-  %D%/star_dem_kernels.h %D%/star_dive.c \
+  %D%/star.c %D%/star.h %D%/star_kernels.h %D%/star_bound.c %D%/star_dem.c \
+  %D%/star_dem_cell.c %D%/star_dem_kernels.h \
   %D%/star_lines.c %D%/star_lines_cell.c %D%/star_lines_climb.c \
   %D%/star_lines_finds.c %D%/star_lines_flow.c %D%/star_lines_grid.c %D%/star_lines_kernels.h \
   %D%/star_lines_leaf.c %D%/star_lines_tasks.c %D%/star_lines_thin.c \
-  %D%/star_ranks.c %D%/star_run.c %D%/star_run_kernels.h %D%/star_search.c \
-  %D%/star_sort.c %D%/star_tree.c %D%/star_tree_kernels.h
+  %D%/star_sweep.c %D%/star_tree.c \
+  %D%/tree.c %D%/tree_kernels.h %D%/tree_best.c %D%/tree_best_kernels.h \
+  %D%/tree_bound.c %D%/tree_bound_closed.c %D%/tree_bound_open.c %D%/tree_cell.c \
+  %D%/tree_climb.c %D%/tree_climb_kernels.h %D%/tree_dive.c %D%/tree_ranks.c \
+  %D%/tree_run.c %D%/tree_run_kernels.h %D%/tree_search.c %D%/tree_sort.c
 %C%_libcore_la_CPPFLAGS = $(AM_CPPFLAGS) -I$(top_builddir)/%D%
 
 # Sobol's direction numbers, from the published table to C.

@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "star_run_kernels.h"
+#include "star_kernels.h"
 
 /* Kernels that profit from wide vectors come in versions; the one that the machine
  * can run is chosen as the program starts.  They are static, since compilers differ

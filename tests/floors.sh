@@ -14,8 +14,8 @@ complain() {
 floor() {
     case $1 in
     num | num_* | points | error | student) echo 0 ;;
-    rng | io | io_* | gen | gen_* | integrand | integrand_* | part) echo 1 ;;
-    star | star_* | l2 | l2_* | box | edge | variation | cells | curve) echo 2 ;;
+    rng | io | io_* | gen | gen_* | integrand | integrand_* | part | tree | tree_*) echo 1 ;;
+    star | star_* | l2 | l2_* | box | box_* | edge | variation | cells | curve) echo 2 ;;
     fit | fit_* | scene | scene_* | bound) echo 3 ;;
     koksma | config) echo any ;; # the umbrella, and what configure found out
     *) echo none ;;

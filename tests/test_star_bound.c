@@ -9,7 +9,7 @@
 
 #include "num_kernels.h"
 #include "oracle.h"
-#include "star_tree_kernels.h"
+#include "star_kernels.h"
 
 /* The most axes, points, ranks an axis, corners of a cell, cells on a path. */
 enum { DIMS = 16, POINTS = 20, RANKS = POINTS + 2, CORNERS = 4096, DEPTH = 4 };
@@ -463,7 +463,7 @@ START_TEST(cells_are_bounded)
         for (int closed = 0; closed < 2; closed++) {
             ki_ranks *r = &f.kind[closed];
 
-            ck_assert(ki_ranks_make(r, f.p, closed) == KOKSMA_OK);
+            ck_assert(ki_ranks_make(r, f.p, closed, &ki_star_measure) == KOKSMA_OK);
             f.ranks = r;
             check_paths(&f);
             ki_ranks_free(r);
