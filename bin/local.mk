@@ -5,14 +5,16 @@ noinst_LTLIBRARIES += %D%/libcli.la
 tool_libs = %D%/libcli.la lib/libkoksma.la
 
 bin_PROGRAMS += \
-  %D%/koksma-error %D%/koksma-eval %D%/koksma-fit %D%/koksma-l2 \
+  %D%/koksma-box %D%/koksma-error %D%/koksma-eval %D%/koksma-fit %D%/koksma-l2 \
   %D%/koksma-points %D%/koksma-star
+%C%_koksma_box_SOURCES    = %D%/box.c
 %C%_koksma_error_SOURCES  = %D%/error.c %D%/error_report.h %D%/error_report.c
 %C%_koksma_eval_SOURCES   = %D%/eval.c
 %C%_koksma_fit_SOURCES    = %D%/fit.c %D%/fit_report.h %D%/fit_report.c
 %C%_koksma_l2_SOURCES     = %D%/l2.c
 %C%_koksma_points_SOURCES = %D%/points.c
 %C%_koksma_star_SOURCES   = %D%/star.c
+%C%_koksma_box_LDADD = $(tool_libs)
 %C%_koksma_error_LDADD = $(tool_libs)
 %C%_koksma_eval_LDADD = $(tool_libs)
 %C%_koksma_fit_LDADD = $(tool_libs)

@@ -3,6 +3,7 @@
 
 /* libkoksma: discrepancy and variation analysis.  koksma(3) is the map. */
 
+#include <koksma/box.h>
 #include <koksma/curve.h>
 #include <koksma/fit.h>
 #include <koksma/gen.h>

@@ -2,6 +2,8 @@
 # so that they can reach ki_ names; libkoksma.la exports koksma_ names alone.
 noinst_LTLIBRARIES = %D%/libcore.la
 %C%_libcore_la_SOURCES = \
+  %D%/box.c %D%/box.h %D%/box_kernels.h %D%/box_bound.c %D%/box_kinetic.c \
+  %D%/box_strip.c %D%/box_sweep.c %D%/box_sweep_kernels.h \
   %D%/curve.c %D%/curve.h \
   %D%/error.c %D%/error.h \
   %D%/fit.c %D%/fit.h %D%/fit_kernels.h %D%/fit_grid.c %D%/fit_judge.c \
@@ -52,7 +54,7 @@ lib_LTLIBRARIES = %D%/libkoksma.la
 include_HEADERS = %D%/koksma.h
 koksmaincludedir = $(includedir)/koksma
 koksmainclude_HEADERS = \
-  %D%/curve.h %D%/fit.h %D%/gen.h %D%/integrand.h %D%/io.h %D%/l2.h %D%/num.h \
+  %D%/box.h %D%/curve.h %D%/fit.h %D%/gen.h %D%/integrand.h %D%/io.h %D%/l2.h %D%/num.h \
   %D%/points.h %D%/rng.h %D%/scene.h %D%/star.h
 
 pkgconfig_DATA = %D%/koksma.pc
