@@ -82,9 +82,10 @@ typedef struct koksma_box_opts {
  *
  * Out:     out    value: exact but for rounding, one or two units in the last
  *                 place wide, unless a tolerance is given; witness: the best
- *                 box, of equally good ones that with the lexicographically
- *                 least corners, compared with twice the precision of a double
- *                 (with a tolerance: some box).  By the search: [found, 1] and
+ *                 box, if closed with a point of its own on each side, of equally
+ *                 good ones that with the lexicographically least corners,
+ *                 compared with twice the precision of a double (with a
+ *                 tolerance: some box).  By the search: [found, 1] and
  *                 the box found.  out->witness.corners is an input too: NULL, or
  *                 room for 2*dim doubles
  *          err    filled on failure; may be NULL

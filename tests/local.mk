@@ -27,7 +27,7 @@ check_LTLIBRARIES += %D%/liboracle.la
   %D%/npy_fixture.h
 
 unit_tests = \
-  %D%/test_curve %D%/test_extra %D%/test_facts %D%/test_fit %D%/test_fit_coverage \
+  %D%/test_box %D%/test_curve %D%/test_extra %D%/test_facts %D%/test_fit %D%/test_fit_coverage \
   %D%/test_fit_judge %D%/test_fit_mixture %D%/test_fit_rules \
   %D%/test_fractals %D%/test_gen %D%/test_gen_digits \
   %D%/test_integrand %D%/test_io %D%/test_io_npy %D%/test_io_npy_bad \
@@ -118,10 +118,12 @@ clean-fuzz:
 # ---- Benches ---------------------------------------------------------------------
 
 benches = \
-  %D%/bench_gen %D%/bench_io %D%/bench_star %D%/bench_star_trade \
+  %D%/bench_box %D%/bench_gen %D%/bench_io %D%/bench_star %D%/bench_star_trade \
   %D%/bench_star_plane %D%/bench_l2 %D%/bench_fit %D%/bench_integrand
 EXTRA_PROGRAMS += $(benches)
 CLEANFILES     += $(benches)
+%C%_bench_box_SOURCES  = %D%/bench_box.c %D%/bench.h
+%C%_bench_box_LDADD    = lib/libcore.la
 %C%_bench_gen_SOURCES  = %D%/bench_gen.c %D%/bench.h
 %C%_bench_gen_LDADD    = lib/libcore.la
 %C%_bench_io_SOURCES   = %D%/bench_io.c %D%/bench.h
