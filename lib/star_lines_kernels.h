@@ -18,7 +18,7 @@
 
 /* Private: the star discrepancy by filtered lines, in these files:
  *
- *   star_sort.c          points in the order of a coordinate
+ *   tree_sort.c          points in the order of a coordinate
  *   star_lines_grid.c    columns and lines
  *   star_lines_climb.c   a first incumbent
  *   star_lines_cell.c    cells of columns, the points and the lines that matter

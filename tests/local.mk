@@ -12,7 +12,7 @@ AM_TESTS_ENVIRONMENT = \
   PATH='$(abs_top_builddir)/bin':$$PATH; export PATH;
 
 structure_scripts = \
-  %D%/cli.sh %D%/cli_plot.sh %D%/cli_star.sh %D%/floors.sh %D%/headers.sh %D%/man.sh %D%/names.sh \
+  %D%/cli.sh %D%/cli_box.sh %D%/cli_plot.sh %D%/cli_star.sh %D%/floors.sh %D%/headers.sh %D%/man.sh %D%/names.sh \
   %D%/symbols.sh
 TESTS      += $(structure_scripts) %D%/replay.sh
 EXTRA_DIST += $(structure_scripts) %D%/cli_rows.sh %D%/replay.sh %D%/corpus
@@ -75,7 +75,7 @@ check-sanitize:
 # And another, in threads/: what runs in several threads at once, and nothing else,
 # since the thread sanitizer makes everything ten times as slow.  Cases tagged slow
 # are left out here too.
-THREAD_TESTS = %D%/test_part %D%/test_star_threads
+THREAD_TESTS = %D%/test_box %D%/test_part %D%/test_star_threads
 check-threads:
 	$(MKDIR_P) threads
 	cd threads && { test -f Makefile || \

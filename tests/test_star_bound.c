@@ -149,7 +149,7 @@ static koksma_interval deviation(const fixture *f, const uint32_t *z)
 }
 
 /* Whether every side of the corner ends at a point that the others leave inside, or
- * an open one at 1: the corners that star_cell.c promises not to lose.  The point
+ * an open one at 1: the corners that tree_cell.c promises not to lose.  The point
  * itself is outside along that axis alone if the box is open, and else nowhere. */
 static bool is_critical(const fixture *f, const uint32_t *z)
 {
@@ -280,7 +280,7 @@ static bool narrow(fixture *f, ki_cell *c)
 
 /* ---- The bound --------------------------------------------------------------- */
 
-/* The units of star_bound_closed.c and star_bound_open.c. */
+/* The units of tree_bound_closed.c and tree_bound_open.c. */
 enum { CHARGE = 1 << 15, WEIGHT = 256 };
 
 /* The weight of every live point is one of 0 to 1 (open boxes), or its shares sum
