@@ -28,8 +28,8 @@ static size_t entries(const ki_worker *w, const ki_cell *c)
     return sum;
 }
 
-/* Split where most points are open along other axes too, over the longest range,
- * at the middle of the list. */
+/* Split where most points are open along other axes too, over the longest range if
+ * places are logarithms, at the middle of the list.  Measured. */
 static void choose_split(ki_worker *w, ki_cell *c)
 {
     double best = -1.0;
@@ -37,8 +37,9 @@ static void choose_split(ki_worker *w, ki_cell *c)
     for (size_t k = 0; k < w->ranks->axes; k++) {
         const double *place = w->ranks->axis[k].place;
         size_t count = c->end[k] - c->begin[k];
+        double range = place[c->high[k]] - place[c->low[k]];
         double weight = ((double)w->pillars[k] + 0.1 * (double)count) *
-                        (place[c->high[k]] - place[c->low[k]]);
+                        (w->ranks->measure->anchored ? range : 1.0);
 
         if (c->low[k] == c->high[k] || weight <= best) continue;
         best = weight;

@@ -27,7 +27,7 @@ check_LTLIBRARIES += %D%/liboracle.la
   %D%/npy_fixture.h
 
 unit_tests = \
-  %D%/test_box %D%/test_curve %D%/test_extra %D%/test_facts %D%/test_fit %D%/test_fit_coverage \
+  %D%/test_box %D%/test_box_bound %D%/test_curve %D%/test_extra %D%/test_facts %D%/test_fit %D%/test_fit_coverage \
   %D%/test_fit_judge %D%/test_fit_mixture %D%/test_fit_rules \
   %D%/test_fractals %D%/test_gen %D%/test_gen_digits \
   %D%/test_integrand %D%/test_io %D%/test_io_npy %D%/test_io_npy_bad \

@@ -257,7 +257,7 @@ static const struct source {
     {"halton", 2, 1000, 0}, {"random", 2, 1000, 0}, {"hammersley", 2, 200, 0},
     {"random", 2, 300, 16}, {"halton", 2, 200, 30}, {"grid", 2, 225, 0},
     {"centred", 2, 225, 0}, {"random", 2, 400, 3},  {"sobol", 2, 256, 0},
-    {"random", 1, 3000, 0}, {"centred", 1, 300, 0}, {"random", 1, 900, 40},
+    {"random", 1, 3000, 0}, {"centred", 1, 100, 0}, {"random", 1, 900, 40},
     {"halton", 3, 50, 0},   {"random", 3, 100, 0},  {"random", 3, 100, 4},
     {"grid", 3, 27, 0},     {"random", 4, 40, 0},   {"random", 5, 20, 0},
 };
