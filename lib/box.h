@@ -107,8 +107,8 @@ koksma_status koksma_box_discrepancy(koksma_box_result *out, koksma_points p,
                                      const koksma_box_opts *opts,
                                      koksma_error *err);
 
-/* Recount a box: the interval, at most two units in the last place wide, of
- * vol - open/n or of closed/n - vol, by w->closed.  w->inside is not read.
+/* Recount a box: the interval, at most two units in the last place wide or 2^-100,
+ * of vol - open/n or of closed/n - vol, by w->closed.  w->inside is not read.
  * p must have passed koksma_points_check and w->corners hold 2*dim numbers of [0,1]
  * with a_k <= b_k.
  *

@@ -46,37 +46,37 @@ void ki_kinetic_gaps(double *gap, size_t places, const double *y, size_t n)
         gap[i] = 0.0;
 }
 
-static inline ki_amount sum(ki_amount a, ki_amount b)
-{
-    return (ki_amount){a.weight + b.weight, a.length + b.length};
-}
+static inline double least(double a, double b) { return a < b ? a : b; }
+static inline double positive(double a) { return a > 0.0 ? a : 0.0; }
 
 /* The better of two at W and, if they tie, above it; lowers *until to where that
- * changes. */
+ * changes.  Without branches, for no one could predict them. */
 static inline ki_amount better(ki_amount a, ki_amount b, double W, double *until)
 {
-    double weight = a.weight - b.weight, length = b.length - a.length;
-    bool second = length > 0.0 ? weight <= length * W : weight < length * W;
+    ki_amount ahead = b - a;
+    double excess = ahead[0] + W * ahead[1];
+    int64_t second =
+        -(int64_t)((excess > 0.0) | ((excess == 0.0) & (ahead[1] > 0.0)));
+    ki_mask mask = {second, second};
+    ki_amount behind =
+        (ki_amount)(((ki_mask)-ahead & mask) | ((ki_mask)ahead & ~mask));
 
-    if (second) {
-        weight = -weight;
-        length = -length;
-    }
-    if (length > 0.0 && weight < *until * length) *until = weight / length;
-    return second ? b : a;
+    /* An infinity or, if the other never catches up, a NaN, which is not less. */
+    *until = least(positive(-behind[0]) / positive(behind[1]), *until);
+    return (ki_amount)(((ki_mask)b & mask) | ((ki_mask)a & ~mask));
 }
 
 static void join(ki_kinetic *t, size_t k, double W)
 {
     const ki_span_best *a = &t->node[2 * k], *b = a + 1;
     ki_span_best *to = &t->node[k];
-    double until = fmin(a->until, b->until);
+    double until = least(a->until, b->until);
 
-    to->all = sum(a->all, b->all);
-    to->first = better(a->first, sum(a->all, b->first), W, &until);
-    to->last = better(b->last, sum(b->all, a->last), W, &until);
-    to->any = better(better(a->any, b->any, W, &until), sum(a->last, b->first), W,
-                     &until);
+    to->all = a->all + b->all;
+    to->first = better(a->first, a->all + b->first, W, &until);
+    to->last = better(b->last, b->all + a->last, W, &until);
+    to->any =
+        better(better(a->any, b->any, W, &until), a->last + b->first, W, &until);
     to->until = until;
     t->work++;
 }
@@ -90,7 +90,7 @@ static void set_place(ki_kinetic *t, size_t i, bool there, double W)
     ki_amount nothing = {0.0, 0.0};
 
     to->until = HUGE_VAL;
-    to->all = sum(point, gap);
+    to->all = point + gap;
     if (t->closed) {
         to->first = to->any = point;
         to->last = better(to->all, nothing, W, &to->until);
@@ -111,11 +111,9 @@ void ki_kinetic_clear(ki_kinetic *t)
 /* Find node k anew, if it is out of date; the depth is that of the tree, 32. */
 static void repair(ki_kinetic *t, size_t k, double W)
 {
-    ki_span_best *node = &t->node[k];
-
-    if (node->until > W) return;
+    if (t->node[k].until > W) return;
     if (k >= t->places) {
-        set_place(t, k - t->places, node->all.weight != 0.0, W);
+        set_place(t, k - t->places, t->node[k].all[0] != 0.0, W);
         return;
     }
     repair(t, 2 * k, W);
@@ -141,5 +139,5 @@ double ki_kinetic_best(ki_kinetic *t, double W)
 
     repair(t, 1, W);
     any = t->node[1].any;
-    return any.weight + W * any.length;
+    return any[0] + W * any[1];
 }

@@ -17,10 +17,9 @@
  * interval of length l with c points the excess c - W l (closed boxes) or W l - c
  * (open). */
 
-/* An amount of excess, weight + W * length. */
-typedef struct ki_amount {
-    double weight, length;
-} ki_amount;
+/* An amount of excess: a weight and a length, amount[0] + W * amount[1]. */
+typedef double ki_amount __attribute__((vector_size(16)));
+typedef int64_t ki_mask __attribute__((vector_size(16)));
 
 /* The points of some consecutive places in the order of y, each with the gap above
  * it: the excess of all, and the best of what begins at the lower end, of what ends

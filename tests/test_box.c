@@ -179,7 +179,10 @@ static double coordinate(test_set *s, unsigned bits)
     size_t kind = (size_t)(s->round % 3);
     double v = (double)oracle_below(&s->rng, 5) / 4.0;
 
-    if (kind == 2) return oracle_dyadic(&s->rng, bits);
+    if (kind == 2 && bits <= 53) return oracle_dyadic(&s->rng, bits);
+    if (kind == 2)
+        return ldexp(oracle_dyadic(&s->rng, 53),
+                     -(int)oracle_below(&s->rng, bits - 52));
     if (kind == 0 || oracle_below(&s->rng, 2) == 0) return v;
 
     double unit = ldexp((double)oracle_below(&s->rng, 4), -(int)bits);
@@ -231,16 +234,18 @@ START_TEST(any_box_is_recounted)
         koksma_box_witness w = {corners, SIZE_MAX, round % 2 == 1};
         koksma_interval v;
 
-        make_set(&s, 9, dim, 37, round);
+        unsigned bits = dim > 2 ? 37 : 56; /* 56: not every width is a double */
+
+        make_set(&s, 9, dim, bits, round);
         for (size_t k = 0; k < dim; k++) {
-            double u = coordinate(&s, 37), v2 = coordinate(&s, 37);
+            double u = coordinate(&s, bits), v2 = coordinate(&s, bits);
 
             corners[k] = fmin(u, v2);
             corners[dim + k] = fmax(u, v2);
         }
         v = koksma_box_between(&w, s.p);
         ck_assert(oracle_contains(v, oracle_between(s.p, corners, w.closed)));
-        ck_assert(oracle_narrow(v));
+        ck_assert(oracle_narrow(v) || v.upper - v.lower < 0x1p-100);
         ck_assert_uint_eq(w.inside, SIZE_MAX);
     }
 }
