@@ -100,12 +100,12 @@ static void set_place(ki_kinetic *t, size_t i, bool there, double W)
     }
 }
 
-void ki_kinetic_clear(ki_kinetic *t)
+void ki_kinetic_start(ki_kinetic *t, const bool *there, size_t n, double W)
 {
     for (size_t i = 0; i < t->places; i++)
-        set_place(t, i, false, 0.0);
+        set_place(t, i, i > 0 && i <= n && there[i - 1], W);
     for (size_t k = t->places - 1; k > 0; k--)
-        join(t, k, 0.0);
+        join(t, k, W);
 }
 
 /* Find node k anew, if it is out of date; the depth is that of the tree, 32. */

@@ -45,8 +45,8 @@ typedef struct ki_kinetic {
 size_t ki_kinetic_places(size_t n);
 void ki_kinetic_gaps(double *gap, size_t places, const double *y, size_t n);
 
-/* The tree without points. */
-void ki_kinetic_clear(ki_kinetic *t);
+/* Begin with the points that are there, by their y-ranks, at any W. */
+void ki_kinetic_start(ki_kinetic *t, const bool *there, size_t n, double W);
 
 /* Put in the point at y-rank i (0, ..., n - 1), at a W no less than before. */
 void ki_kinetic_insert(ki_kinetic *t, size_t i, double W);

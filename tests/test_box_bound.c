@@ -244,14 +244,17 @@ START_TEST(the_best_interval_of_a_strip)
                                   : oracle_dyadic(&rng, 53);
         qsort(y, n, sizeof *y, ascending);
         ki_kinetic_gaps(gap, places, y, n);
-        ki_kinetic_clear(&t);
+        ki_kinetic_start(&t, there, n, W);
         for (size_t step = 0; step < 2 * n; step++) {
             size_t i = oracle_below(&rng, n);
 
             if (round % 5 > 0) W += oracle_dyadic(&rng, 53);
             if (oracle_below(&rng, 3) > 0 && !there[i]) {
                 there[i] = true;
-                ki_kinetic_insert(&t, i, W);
+                if (oracle_below(&rng, 9) == 0)
+                    ki_kinetic_start(&t, there, n, W);
+                else
+                    ki_kinetic_insert(&t, i, W);
             }
 
             double best = ki_kinetic_best(&t, W);
