@@ -121,16 +121,15 @@ static void repair(ki_kinetic *t, size_t k, double W)
     join(t, k, W);
 }
 
+/* The nodes above are found anew when they are asked for, once for all points that
+ * have come in. */
 void ki_kinetic_insert(ki_kinetic *t, size_t i, double W)
 {
     size_t k = t->places + i + 1;
 
     set_place(t, i + 1, true, W);
-    while (k > 1) {
-        repair(t, k ^ 1, W);
-        k /= 2;
-        join(t, k, W);
-    }
+    while ((k /= 2) > 0 && t->node[k].until >= 0.0)
+        t->node[k].until = -1.0;
 }
 
 double ki_kinetic_best(ki_kinetic *t, double W)

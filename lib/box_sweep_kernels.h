@@ -24,7 +24,7 @@ typedef int64_t ki_mask __attribute__((vector_size(16)));
 /* The points of some consecutive places in the order of y, each with the gap above
  * it: the excess of all, and the best of what begins at the lower end, of what ends
  * at the upper end, and of any interval; these are right for the W that they were
- * found for, and as long as W grows no further than to `until`. */
+ * found for, and as long as W stays below `until`. */
 typedef struct ki_span_best {
     ki_amount all, first, last, any;
     double until;

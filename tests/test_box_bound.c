@@ -294,7 +294,7 @@ START_TEST(the_sweep_alone)
 {
     static double x[2 * 300];
 
-    for (uint64_t round = 0; round < 300 * oracle_scale(); round++) {
+    for (uint64_t round = 0; round < 800 * oracle_scale(); round++) {
         oracle_rng rng = oracle_rng_start(oracle_seed(), round);
         size_t n = 1 + oracle_below(&rng, round % 50 == 0 ? 300 : 20);
 
