@@ -98,7 +98,8 @@ typedef struct koksma_box_opts {
  *
  *     sweep   n log n for dim 1; n^2 log n at worst for dim 2
  *     tree    no useful bound: about that of the star discrepancy in 2*dim
- *             dimensions; measured on Halton points about n^2 for dim 2 and 3
+ *             dimensions; measured on Halton points about n^2 for dim 2 and n^2.2
+ *             for dim 3
  *     search  about that of koksma_star's in 2*dim dimensions
  *
  * Source:  the definition: [Dobkin, Eppstein, Mitchell 1996]; the methods are
