@@ -213,7 +213,7 @@ static double plain_best(const double *y, const bool *there, size_t n, double W,
 {
     double best = 0.0;
 
-    for (size_t i = 0; i <= n + 1; i++)
+    for (size_t i = 0; i <= n; i++)
         for (size_t j = i > 0 ? i : 1; j <= n + 1; j++) {
             double low = i == 0 ? 0.0 : y[i - 1], high = j > n ? 1.0 : y[j - 1];
             double count = 0.0;
