@@ -96,7 +96,7 @@ typedef struct koksma_box_opts {
  *          koksma_points_check, and for options out of range; KOKSMA_ENOMEM
  * Cost:    as follows; memory grows like n*dim
  *
- *     sweep   n log n for dim 1; n^2 log n at worst for dim 2
+ *     sweep   n log n for dim 1; about n^2 log n for dim 2 where nothing is skipped
  *     tree    no useful bound: about that of the star discrepancy in 2*dim
  *             dimensions; measured on Halton points about n^2 for dim 2 and n^2.2
  *             for dim 3
