@@ -5,11 +5,12 @@ noinst_LTLIBRARIES += %D%/libcli.la
 tool_libs = %D%/libcli.la lib/libkoksma.la
 
 bin_PROGRAMS += \
-  %D%/koksma-bound %D%/koksma-cells %D%/koksma-edge %D%/koksma-error \
+  %D%/koksma-bound %D%/koksma-box %D%/koksma-cells %D%/koksma-edge %D%/koksma-error \
   %D%/koksma-eval %D%/koksma-fit %D%/koksma-l2 %D%/koksma-points %D%/koksma-star \
   %D%/koksma-variation
 %C%_koksma_bound_SOURCES  = %D%/bound.c %D%/bound_input.h %D%/bound_input.c \
   %D%/bound_report.h %D%/bound_report.c
+%C%_koksma_box_SOURCES    = %D%/box.c
 %C%_koksma_cells_SOURCES  = %D%/cells.c %D%/cells_report.h %D%/cells_sets.c \
   %D%/cells_table.c
 %C%_koksma_edge_SOURCES   = %D%/edge.c
@@ -22,6 +23,7 @@ bin_PROGRAMS += \
 %C%_koksma_variation_SOURCES = %D%/variation.c %D%/variation_report.h \
   %D%/variation_report.c %D%/variation_run.h %D%/variation_run.c
 %C%_koksma_bound_LDADD  = $(tool_libs)
+%C%_koksma_box_LDADD    = $(tool_libs)
 %C%_koksma_cells_LDADD  = $(tool_libs)
 %C%_koksma_edge_LDADD   = $(tool_libs)
 %C%_koksma_error_LDADD  = $(tool_libs)

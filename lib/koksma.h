@@ -4,6 +4,7 @@
 /* libkoksma: discrepancy and variation analysis.  koksma(3) is the map. */
 
 #include <koksma/bound.h>
+#include <koksma/box.h>
 #include <koksma/cells.h>
 #include <koksma/curve.h>
 #include <koksma/edge.h>

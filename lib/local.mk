@@ -3,6 +3,8 @@
 noinst_LTLIBRARIES = %D%/libcore.la
 %C%_libcore_la_SOURCES = \
   %D%/bound.c %D%/bound.h \
+  %D%/box.c %D%/box.h %D%/box_kernels.h %D%/box_bound.c %D%/box_kinetic.c \
+  %D%/box_strip.c %D%/box_sweep.c %D%/box_sweep_kernels.h \
   %D%/cells.c %D%/cells.h %D%/cells_kernels.h %D%/cells_grid.c %D%/cells_line.c \
   %D%/cells_lines.c %D%/cells_occupancy.c %D%/cells_samples.c %D%/cells_slope.c \
   %D%/curve.c %D%/curve.h \
@@ -33,16 +35,16 @@ noinst_LTLIBRARIES = %D%/libcore.la
   %D%/points.c %D%/points.h \
   %D%/rng.c %D%/rng.h %D%/rng_kernels.h \
   %D%/scene.c %D%/scene.h %D%/scene_kernels.h \
-  %D%/star.c %D%/star.h %D%/star_kernels.h %D%/star_sweep.c \
-  %D%/star_best.c %D%/star_bound.c %D%/star_bound_closed.c \
-  %D%/star_bound_open.c %D%/star_cell.c %D%/star_climb.c \
-  %D%/star_climb_kernels.h %D%/star_dem.c %D%/star_dem_cell.c \
-  %D%/star_dem_kernels.h %D%/star_dive.c \
+  %D%/star.c %D%/star.h %D%/star_kernels.h %D%/star_bound.c %D%/star_dem.c \
+  %D%/star_dem_cell.c %D%/star_dem_kernels.h \
   %D%/star_lines.c %D%/star_lines_cell.c %D%/star_lines_climb.c \
   %D%/star_lines_finds.c %D%/star_lines_flow.c %D%/star_lines_grid.c %D%/star_lines_kernels.h \
   %D%/star_lines_leaf.c %D%/star_lines_tasks.c %D%/star_lines_thin.c \
-  %D%/star_ranks.c %D%/star_run.c %D%/star_run_kernels.h %D%/star_search.c \
-  %D%/star_sort.c %D%/star_tree.c %D%/star_tree_kernels.h \
+  %D%/star_sweep.c %D%/star_tree.c \
+  %D%/tree.c %D%/tree_kernels.h %D%/tree_best.c %D%/tree_best_kernels.h \
+  %D%/tree_bound.c %D%/tree_bound_closed.c %D%/tree_bound_open.c %D%/tree_cell.c \
+  %D%/tree_climb.c %D%/tree_climb_kernels.h %D%/tree_dive.c %D%/tree_ranks.c \
+  %D%/tree_run.c %D%/tree_run_kernels.h %D%/tree_search.c %D%/tree_sort.c \
   %D%/variation.c %D%/variation.h %D%/variation_kernels.h %D%/variation_grid.c \
   %D%/variation_points.c %D%/variation_random.c %D%/variation_tree.c
 %C%_libcore_la_CPPFLAGS = $(AM_CPPFLAGS) -I$(top_builddir)/%D%
@@ -65,7 +67,7 @@ lib_LTLIBRARIES = %D%/libkoksma.la
 include_HEADERS = %D%/koksma.h
 koksmaincludedir = $(includedir)/koksma
 koksmainclude_HEADERS = \
-  %D%/bound.h %D%/cells.h %D%/curve.h %D%/edge.h %D%/fit.h %D%/gen.h \
+  %D%/bound.h %D%/box.h %D%/cells.h %D%/curve.h %D%/edge.h %D%/fit.h %D%/gen.h \
   %D%/integrand.h %D%/io.h %D%/l2.h %D%/num.h %D%/points.h %D%/rng.h \
   %D%/scene.h %D%/star.h %D%/variation.h
 

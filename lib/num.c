@@ -32,27 +32,62 @@ int ki_sum_sign(const double *terms, size_t n)
     return part[parts - 1] > 0.0 ? 1 : -1;
 }
 
+/* What a step of a product may lose, and the products that are charged for it
+ * unseen, since fma's error term is itself exact unless it underflows: vastly more
+ * than they can lose. */
+static const double STEP = 0x1p-104, TINY = 0x1p-960;
+
 /* One step multiplies (hi, lo) by c in [0,1].  hi*c = p + e exactly, by fma.
  * lo*c and the sum with e round; |lo| <= 2^-54 since hi <= 1, so both errors
  * are below 2^-106, and STEP covers them and the final renormalisation, which
  * is exact.  When both roundings are seen to be exact nothing is added, so
- * that products of short dyadic numbers come out exact.  fma's e is itself
- * exact unless it underflows; products below 2^-960 are therefore charged a step
- * as well, which is vastly more than they can lose. */
+ * that products of short dyadic numbers come out exact. */
+static ki_twofold times(ki_twofold v, double c)
+{
+    double p = v.hi * c;
+    double e = fma(v.hi, c, -p), q = v.lo * c, rest;
+    double low = ki_two_sum(e, q, &rest);
+
+    if (rest != 0.0 || fma(v.lo, c, -q) != 0.0 ||
+        (c != 0.0 && (p < TINY || (v.lo != 0.0 && fabs(q) < TINY))))
+        v.err += STEP;
+    v.hi = ki_two_sum(p, low, &v.lo);
+    return v;
+}
+
+/* The same by c + rest, |rest| <= 2^-54: that adds hi*rest to the low part, at most
+ * 2^-54, rounded by 2^-108; to add it rounds by 2^-106 more; and lo*rest, at most
+ * 2^-108, is left out. */
+static ki_twofold times_width(ki_twofold v, double c, double rest)
+{
+    double more = v.hi * rest;
+
+    v = times(v, c);
+    if (rest == 0.0) return v;
+    v.err += STEP;
+    v.hi = ki_two_sum(v.hi, v.lo + more, &v.lo);
+    return v;
+}
+
 ki_twofold ki_volume(const double *corner, size_t dim)
 {
-    static const double STEP = 0x1p-104, TINY = 0x1p-960;
     ki_twofold v = {corner[0], 0.0, 0.0};
 
-    for (size_t k = 1; k < dim && v.hi != 0.0; k++) {
-        double c = corner[k], p = v.hi * c;
-        double e = fma(v.hi, c, -p), q = v.lo * c, rest;
-        double low = ki_two_sum(e, q, &rest);
+    for (size_t k = 1; k < dim && v.hi != 0.0; k++)
+        v = times(v, corner[k]);
+    return v;
+}
 
-        if (rest != 0.0 || fma(v.lo, c, -q) != 0.0 ||
-            (c != 0.0 && (p < TINY || (v.lo != 0.0 && fabs(q) < TINY))))
-            v.err += STEP;
-        v.hi = ki_two_sum(p, low, &v.lo);
+/* A width b - a is a double and a rest, exactly. */
+ki_twofold ki_volume_between(const double *a, const double *b, size_t dim)
+{
+    ki_twofold v = {0.0, 0.0, 0.0};
+
+    v.hi = ki_two_sum(b[0], -a[0], &v.lo);
+    for (size_t k = 1; k < dim && v.hi != 0.0; k++) {
+        double rest, width = ki_two_sum(b[k], -a[k], &rest);
+
+        v = times_width(v, width, rest);
     }
     return v;
 }

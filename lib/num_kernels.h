@@ -50,6 +50,9 @@ int ki_sum_sign(const double *terms, size_t n);
 /* vol: the product of dim numbers in [0,1]. */
 ki_twofold ki_volume(const double *corner, size_t dim);
 
+/* vol: the product of the dim widths b_k - a_k, 0 <= a_k <= b_k <= 1. */
+ki_twofold ki_volume_between(const double *a, const double *b, size_t dim);
+
 /* sign * (inside - n*vol), 0 <= inside <= n < 2^51: how many points too many. */
 ki_twofold ki_excess(double sign, size_t inside, size_t n, ki_twofold vol);
 

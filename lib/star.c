@@ -7,25 +7,24 @@
 #include "error.h"
 #include "star_kernels.h"
 
-static size_t count_inside(const double *corner, koksma_points p, bool closed)
-{
-    size_t inside = 0;
-
-    for (size_t i = 0; i < p.n; i++) {
-        const double *x = p.x + i * p.dim;
-        size_t k = 0;
-
-        while (k < p.dim && (closed ? x[k] <= corner[k] : x[k] < corner[k]))
-            k++;
-        inside += k == p.dim;
-    }
-    return inside;
-}
-
 koksma_interval koksma_box_local(const koksma_box *box, koksma_points p)
 {
-    return ki_box_deviation(p, box->corner,
-                            count_inside(box->corner, p, box->closed), box->closed);
+    size_t inside = ki_box_count(p, box->corner, p.dim, box->closed);
+
+    return ki_box_deviation(p, box->corner, p.dim, inside, box->closed);
+}
+
+ki_run_opts ki_star_run_opts(const koksma_star_opts *opts)
+{
+    return (ki_run_opts){.tolerance = opts->tolerance,
+                         .anytime = opts->anytime,
+                         .threads = opts->threads,
+                         .part = opts->part,
+                         .parts = opts->parts,
+                         .work = opts->work,
+                         .seed = opts->seed,
+                         .progress = opts->progress,
+                         .state = opts->state};
 }
 
 static ki_star_kernel *const kernels[] = {

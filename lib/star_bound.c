@@ -1,141 +1,127 @@
+#include <float.h>
 #include <math.h>
 
-#include "error.h"
-#include "star_tree_kernels.h"
+#include "star_kernels.h"
 
-/* What the corners of a cell can hold at most: a bound that is a sum of one term
- * an axis, so that its maximum is found axis by axis.
+/* Linear bounds of the volumes [0,z) in a cell, for tree_bound.c.
  *
- * Let t = sum_k log z_k, so that the volume is e^t, and u_j = 1 if a point is
- * inside along axis j and 0 if not: it is in the box when all u_j are 1.
+ * Places are logarithms.  Let t = sum_k log z_k, so that the volume is e^t.
  *
- * Open boxes, vol - count/n.  Over the volumes that matter e^t, being convex, lies
- * below a line: e^t <= V - s (t_high - t), with V the volume at `high` and a slope
- * s no more than that of the chord.  And AND(u) >= w (1 - sum_j (1 - u_j)) for any
- * weight w in [0,1]: a point counts along each axis where it is open.
+ * Open boxes: over the volumes that matter e^t, being convex, lies below a line,
+ * e^t <= V - s (t_high - t), with V the volume at `high` and a slope s no more than
+ * that of the chord.
  *
- * Closed boxes, count/n - vol.  For any g > 0, -e^t <= -g (1 + t - log g), the
- * tangent; and AND(u) <= sum_j w_j u_j for any weights with sum_j w_j = 1: a point
- * is charged to the axes where it is open, by shares.
- *
- * Either way the bound is  base + sum_k (extreme over the ranks v in the list of
- * k of  K_k(v)/n and s log v), with K_k(v) the weight passed on the way up to v:
- * one walk along each list.  In a run of equal ranks one end has the right K, and
- * the other entries only claim less.
- *
- * All weights are multiples of 1/256, so that every K is exact.  They start as 0 or
- * 1; from 9 axes on it pays to move them, a few times, towards what is exact at the
- * corner that the bound found best (a subgradient step on the dual), and every
- * round bounds anew.
+ * Closed boxes: for any g > 0, e^t >= g (1 + t - log g), the tangent.
  *
  * Rounding.  Let A = sum_k |log low_k|, computed, and assume of libm that log is
  * good to 2^-51 of itself (koksma(7) says so, a test checks it).  Then every
- * difference of logarithms below is off by less than 2^-50 A, slope included
- * 2^-50 s A.  Each term takes four roundings, each sum over the axes one an axis,
+ * difference of logarithms is off by less than 2^-50 A, slope included 2^-50 s A.
+ * Each term of the bound takes four roundings, each sum over the axes one an axis,
  * all of numbers below dim + 1 + s A: together less than (dim + 1) (dim + 2 + s A)
  * 2^-51.  pad() is twice that and covers both. */
-double ki_bound_pad(size_t dim, double slope_times_logs)
+static double pad(size_t dim, double slope_times_logs)
 {
     double d = (double)dim;
 
     return (d + 1.0) * (d + 2.0 + slope_times_logs) * 0x1p-50;
 }
 
-ki_extent ki_cell_extent(const ki_worker *w, const ki_cell *c)
+/* The volumes at the ends of a cell, their logarithms, and A. */
+typedef struct extent {
+    double volume_low, volume_high, log_low, log_high, logs;
+} extent;
+
+static extent extent_of(const ki_worker *w, const ki_cell *c)
 {
-    ki_extent x = {1.0, 1.0, 0.0, 0.0, 0.0};
+    extent x = {1.0, 1.0, 0.0, 0.0, 0.0};
 
     for (size_t k = 0; k < w->ranks->dim; k++) {
         const ki_axis *axis = &w->ranks->axis[k];
 
         x.volume_low *= axis->value[c->low[k]];
         x.volume_high *= axis->value[c->high[k]];
-        x.log_low += axis->log[c->low[k]];
-        x.log_high += axis->log[c->high[k]];
+        x.log_low += axis->place[c->low[k]];
+        x.log_high += axis->place[c->high[k]];
     }
     x.logs = -x.log_low;
     return x;
 }
 
-ki_span ki_open_entries(const ki_worker *w, const ki_cell *c, size_t k)
+/* The slope of a line through (t_high, V) that stays above e^t on the volumes
+ * that matter: those from E on.  The chord's is (V - E)/(log V - log E); less is
+ * safe.  Below a width of 2^-10 the computed chord could err by more than its own
+ * part, and the slope at its lower end, E, serves: it is nearly the same.  Above,
+ * the difference V - E is good to dim 2^-41 of itself and the width to A 2^-40. */
+static double chord_slope(extent x, double least, size_t dim)
 {
-    const ki_entry *e = w->entry;
-    ki_span s = {c->begin[k], c->end[k]};
+    double low = fmax(least, x.volume_low), width;
+    double safe = 1.0 - (x.logs + (double)dim + 2.0) * 0x1p-38;
 
-    if (w->ranks->closed)
-        while (s.begin < s.end && e[s.begin].rank == c->low[k])
-            s.begin++;
-    else
-        while (s.end > s.begin && e[s.end - 1].rank == c->high[k])
-            s.end--;
-    return s;
+    if (!(safe > 0.0) || !(low > 0.0) || low >= x.volume_high) return 0.0;
+    width = x.log_high - (low > x.volume_low ? log(low) : x.log_low);
+    if (width < 0x1p-10) return low * safe;
+    return (x.volume_high - low) / width * safe;
 }
 
-double ki_inverse_width(const ki_worker *w, const ki_cell *c, size_t k)
+static void same_slope(ki_worker *w, double slope)
 {
-    const double *log = w->ranks->axis[k].log;
-    double width = log[c->high[k]] - log[c->low[k]];
-
-    return width > 0.0 ? 1.0 / width : 0.0;
+    for (size_t k = 0; k < w->ranks->axes; k++)
+        w->slope[k] = slope;
 }
 
-/* Measured: rounds cost more than they save below 9 axes, and the more axes there
- * are the more of them pay. */
-bool ki_round_pays(const ki_worker *w, uint32_t round, double gap)
+static void open_line(ki_worker *w, const ki_cell *c, double target, uint32_t round,
+                      ki_slopes *line)
 {
     size_t dim = w->ranks->dim;
-    double pillars = 0.0;
+    double inside = (double)c->inside / (double)w->ranks->n, slope;
+    extent x;
 
-    if (dim < 9 || round > (dim - 5) / 2) return false;
-    for (size_t k = 0; k < dim; k++)
-        pillars += (double)w->pillars[k];
-    return gap * round <= 0.1 * pillars / (double)w->ranks->n;
+    if (round > 0) return;
+    x = extent_of(w, c);
+    line->quick = x.volume_high - inside + pad(dim, 0.0);
+    if (line->quick < target) return;
+    /* A corner above the target has a volume above target + inside. */
+    slope = chord_slope(x, (target + inside) * (1.0 - 0x1p-50), dim);
+    line->margin = pad(dim, slope * x.logs);
+    line->base = x.volume_high;
+    same_slope(w, slope);
 }
 
-void ki_tighten(ki_worker *w, const ki_cell *c, double slack, double side)
+/* The logarithm of the volume of the corner that was found best. */
+static double log_of_best(const ki_worker *w)
 {
-    const double *term = w->term;
+    double sum = 0.0;
 
-    for (size_t k = 0; k < w->ranks->dim; k++) {
-        const ki_entry *e = w->entry + c->begin[k];
-        size_t count = c->end[k] - c->begin[k], first = 0, last;
-        size_t terms = count + (w->ranks->closed ? 0 : 1);
-        double limit = side * w->best_term[k] - slack;
-        uint32_t low, high;
+    for (size_t k = 0; k < w->ranks->axes; k++)
+        sum += w->ranks->axis[k].place[w->best_rank[k]];
+    return sum;
+}
 
-        while (first < terms && side * term[first] < limit)
-            first++;
-        last = terms;
-        while (last > first && side * term[last - 1] < limit)
-            last--;
-        low = first < count ? e[first].rank : c->high[k];
-        high = last > 0 && last - 1 < count ? e[last - 1].rank : c->high[k];
-        if (low > w->new_low[k]) w->new_low[k] = low;
-        if (high < w->new_high[k]) w->new_high[k] = high;
-        term += terms;
+/* A corner above the target has a volume below most - target.  The tangent touches
+ * between there and the volume at `low`, nearer to the former; then nearer and
+ * nearer to the volumes of the corners found best. */
+static void closed_line(ki_worker *w, const ki_cell *c, double target,
+                        uint32_t round, ki_slopes *line)
+{
+    double most = (double)(c->inside + c->lives) / (double)w->ranks->n;
+    extent x = extent_of(w, c);
+    double slope, touch;
+
+    if (round == 0) {
+        double greatest = fmin(most - target, x.volume_high);
+
+        line->quick = most - x.volume_low + pad(w->ranks->dim, 0.0);
+        if (line->quick < target) return;
+        line->at = x.log_low;
+        if (greatest > x.volume_low) line->at += 0.65 * (log(greatest) - x.log_low);
+    } else {
+        line->at += (log_of_best(w) - line->at) / (round + 1);
     }
+    slope = fmax(exp(line->at), DBL_MIN); /* any slope above 0 makes a bound */
+    touch = log(slope);
+    line->margin = pad(w->ranks->dim, slope * (x.logs - touch + 1.0));
+    line->base = slope * (1.0 + x.log_low - touch);
+    same_slope(w, slope);
 }
 
-static bool make_room(ki_worker *w, const ki_cell *c)
-{
-    size_t need = w->ranks->dim;
-
-    for (size_t k = 0; k < w->ranks->dim; k++)
-        need += c->end[k] - c->begin[k];
-    w->work += (double)need;
-    return ki_grow((void **)&w->gap, &w->room_gaps, need, sizeof *w->gap) == 0 &&
-           ki_grow((void **)&w->share, &w->room_shares, need, sizeof *w->share) ==
-               0 &&
-           ki_grow((void **)&w->term, &w->room_terms, need, sizeof *w->term) == 0;
-}
-
-double ki_cell_bound(ki_worker *w, const ki_cell *c, double target)
-{
-    if (!make_room(w, c)) return HUGE_VAL;
-    for (size_t k = 0; k < w->ranks->dim; k++) {
-        w->new_low[k] = c->low[k];
-        w->new_high[k] = c->high[k];
-    }
-    return w->ranks->closed ? ki_bound_closed(w, c, target)
-                            : ki_bound_open(w, c, target);
-}
+const ki_measure ki_star_measure = {true, open_line, closed_line};

@@ -16,7 +16,7 @@
  *
  * Products are formed from the first axis to the last.  Rounding is monotone, so
  * the greatest of the rounded products is in the table exactly, and deviations
- * here are the plain ones of star_best.c, dim + 1 roundings each. */
+ * here are the plain ones of tree_best.c, dim + 1 roundings each. */
 
 static size_t smaller(size_t a, size_t b) { return a < b ? a : b; }
 

@@ -147,9 +147,11 @@ static koksma_status settle_witness(ki_best *b)
 static koksma_status begin(search *s, ki_best *b, const koksma_star_opts *opts,
                            ki_lines_sizes sizes)
 {
+    ki_run_opts shared = ki_star_run_opts(opts);
+
     s->part = opts->parts > 1 ? opts->part - 1 : 0;
     s->parts = opts->parts > 1 ? opts->parts : 1;
-    if (ki_run_begin(&s->run, b, opts) != KOKSMA_OK ||
+    if (ki_run_begin(&s->run, b, &shared) != KOKSMA_OK ||
         ki_lines_grid_make(&s->grid, b->p, s->run.team) != KOKSMA_OK ||
         ki_lines_climb(&s->grid, &s->run, sizes.climbs) != KOKSMA_OK)
         return KOKSMA_ENOMEM;

@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "star_run_kernels.h"
+#include "star_kernels.h"
 
 /* Kernels that profit from wide vectors come in versions; the one that the machine
  * can run is chosen as the program starts.  They are static, since compilers differ
@@ -18,7 +18,7 @@
 
 /* Private: the star discrepancy by filtered lines, in these files:
  *
- *   star_sort.c          points in the order of a coordinate
+ *   tree_sort.c          points in the order of a coordinate
  *   star_lines_grid.c    columns and lines
  *   star_lines_climb.c   a first incumbent
  *   star_lines_cell.c    cells of columns, the points and the lines that matter

@@ -15,7 +15,8 @@ floor() {
     case $1 in
     num | num_* | points | error | student) echo 0 ;;
     rng | rng_* | io | io_* | gen | gen_* | integrand | integrand_* | part) echo 1 ;;
-    star | star_* | l2 | l2_* | box | edge | edge_* | curve) echo 2 ;;
+    tree | tree_*) echo 1 ;;
+    star | star_* | l2 | l2_* | box | box_* | edge | edge_* | curve) echo 2 ;;
     variation | variation_* | cells | cells_*) echo 2 ;;
     fit | fit_* | scene | scene_* | bound) echo 3 ;;
     koksma | config) echo any ;; # the umbrella, and what configure found out

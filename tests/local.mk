@@ -12,7 +12,7 @@ AM_TESTS_ENVIRONMENT = \
   PATH='$(abs_top_builddir)/bin':$$PATH; export PATH;
 
 structure_scripts = \
-  %D%/cli.sh %D%/cli_bound.sh %D%/cli_cells.sh %D%/cli_edge.sh %D%/cli_plot.sh \
+  %D%/cli.sh %D%/cli_bound.sh %D%/cli_box.sh %D%/cli_cells.sh %D%/cli_edge.sh %D%/cli_plot.sh \
   %D%/cli_star.sh %D%/cli_variation.sh %D%/floors.sh %D%/headers.sh %D%/man.sh \
   %D%/names.sh \
   %D%/symbols.sh
@@ -29,6 +29,7 @@ check_LTLIBRARIES += %D%/liboracle.la
   %D%/npy_fixture.h
 
 unit_tests = \
+  %D%/test_box %D%/test_box_bound \
   %D%/test_cells %D%/test_cells_lines %D%/test_curve %D%/test_edge \
   %D%/test_edge_cell %D%/test_extra %D%/test_facts %D%/test_fit %D%/test_fit_coverage \
   %D%/test_fit_judge %D%/test_fit_mixture %D%/test_fit_rules \
@@ -79,7 +80,7 @@ check-sanitize:
 # And another, in threads/: what runs in several threads at once, and nothing else,
 # since the thread sanitizer makes everything ten times as slow.  Cases tagged slow
 # are left out here too.
-THREAD_TESTS = %D%/test_edge %D%/test_part %D%/test_star_threads
+THREAD_TESTS = %D%/test_box %D%/test_edge %D%/test_part %D%/test_star_threads
 check-threads:
 	$(MKDIR_P) threads
 	cd threads && { test -f Makefile || \
@@ -122,12 +123,14 @@ clean-fuzz:
 # ---- Benches ---------------------------------------------------------------------
 
 benches = \
-  %D%/bench_edge \
+  %D%/bench_box %D%/bench_edge \
   %D%/bench_gen %D%/bench_io %D%/bench_star %D%/bench_star_trade \
   %D%/bench_star_plane %D%/bench_l2 %D%/bench_fit %D%/bench_integrand \
   %D%/bench_cells %D%/bench_variation
 EXTRA_PROGRAMS += $(benches)
 CLEANFILES     += $(benches)
+%C%_bench_box_SOURCES = %D%/bench_box.c %D%/bench.h
+%C%_bench_box_LDADD   = lib/libcore.la
 %C%_bench_edge_SOURCES = %D%/bench_edge.c %D%/bench.h
 %C%_bench_edge_LDADD   = lib/libcore.la
 %C%_bench_gen_SOURCES  = %D%/bench_gen.c %D%/bench.h

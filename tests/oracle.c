@@ -143,6 +143,118 @@ oracle_ratio oracle_star(koksma_points p, double *corner)
     return (oracle_ratio){best, p.n, b * (unsigned)p.dim};
 }
 
+size_t oracle_count_between(koksma_points p, const double *corners, bool closed)
+{
+    const double *a = corners, *b = corners + p.dim;
+    size_t count = 0;
+
+    for (size_t i = 0; i < p.n; i++) {
+        bool inside = true;
+
+        for (size_t k = 0; k < p.dim; k++) {
+            double v = p.x[i * p.dim + k];
+
+            if (closed ? v < a[k] || v > b[k] : v <= a[k] || v >= b[k])
+                inside = false;
+        }
+        if (inside) count++;
+    }
+    return count;
+}
+
+static oracle_int between_num(koksma_points p, const double *corners, bool closed,
+                              unsigned b)
+{
+    oracle_int share = (oracle_int)oracle_count_between(p, corners, closed);
+    oracle_int vol = (oracle_int)p.n;
+
+    for (size_t k = 0; k < p.dim; k++) {
+        vol *= (oracle_int)ldexp(corners[p.dim + k], (int)b) -
+               (oracle_int)ldexp(corners[k], (int)b);
+        share *= (oracle_int)1 << b;
+    }
+    return closed ? share - vol : vol - share;
+}
+
+oracle_ratio oracle_between(koksma_points p, const double *corners, bool closed)
+{
+    unsigned b = bits_of(corners, 2 * p.dim, bits_of(p.x, p.n * p.dim, 0));
+
+    check_range(p.n, p.dim, b);
+    return (oracle_ratio){between_num(p, corners, closed, b), p.n,
+                          b * (unsigned)p.dim};
+}
+
+/* Numbers that the odometer of 2*dim axes shows, and whether they are a box. */
+static bool read_corners(double *c, const double *level, size_t stride,
+                         const size_t *digit, size_t dim)
+{
+    bool is_box = true;
+
+    for (size_t k = 0; k < 2 * dim; k++)
+        c[k] = level[k % dim * stride + digit[k]];
+    for (size_t k = 0; k < dim; k++)
+        is_box = is_box && c[k] <= c[dim + k];
+    return is_box;
+}
+
+/* Whether every side of a closed box has a point of the box on it. */
+static bool is_tight(koksma_points p, const double *corners)
+{
+    const double *a = corners, *b = corners + p.dim;
+
+    for (size_t side = 0; side < 2 * p.dim; side++) {
+        bool held = false;
+
+        for (size_t i = 0; i < p.n; i++) {
+            const double *x = p.x + i * p.dim;
+            bool here = x[side % p.dim] == corners[side];
+
+            for (size_t k = 0; k < p.dim; k++)
+                here = here && a[k] <= x[k] && x[k] <= b[k];
+            held = held || here;
+        }
+        if (!held) return false;
+    }
+    return true;
+}
+
+oracle_ratio oracle_box(koksma_points p, double *corners)
+{
+    unsigned b = bits_of(p.x, p.n * p.dim, 0);
+    double *level = room(p.dim * (p.n + 2), sizeof *level);
+    double *c = room(2 * p.dim, sizeof *c);
+    size_t *size = room(p.dim, sizeof *size);
+    size_t *digit = room(2 * p.dim, sizeof *digit);
+    oracle_int best = -1, shown = -1;
+    size_t turned = 0;
+
+    check_range(p.n, p.dim, b);
+    for (size_t k = 0; k < p.dim; k++)
+        size[k] = axis_levels(level + k * (p.n + 2), p, k);
+    do {
+        bool is_box = read_corners(c, level, p.n + 2, digit, p.dim);
+
+        for (int closed = 0; is_box && closed < 2; closed++) {
+            oracle_int num = between_num(p, c, closed, b);
+
+            if (num > best) best = num;
+            if (num <= shown || (closed && !is_tight(p, c))) continue;
+            shown = num;
+            memcpy(corners, c, 2 * p.dim * sizeof *c);
+        }
+        for (turned = 2 * p.dim; turned > 0; turned--) {
+            if (++digit[turned - 1] < size[(turned - 1) % p.dim]) break;
+            digit[turned - 1] = 0;
+        }
+    } while (turned > 0);
+    free(level);
+    free(c);
+    free(size);
+    free(digit);
+    return (oracle_ratio){best, p.n, b * (unsigned)p.dim};
+}
+
 static oracle_int floor_scaled(oracle_int m, int down)
 {
     if (down >= 126) return m < 0 ? -1 : 0;

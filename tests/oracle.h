@@ -35,6 +35,12 @@ size_t oracle_count(koksma_points p, const double *corner, bool closed);
 /* vol - open/n or closed/n - vol of that box.  corner need not be on p's grid. */
 oracle_ratio oracle_local(koksma_points p, const double *corner, bool closed);
 
+/* The same for boxes anywhere, (a,b) or [a,b], as box.h says: corners has dim
+ * numbers a and then dim numbers b.  Cost: (n+2)^(2 dim) * n * dim. */
+oracle_ratio oracle_box(koksma_points p, double *corners);
+size_t oracle_count_between(koksma_points p, const double *corners, bool closed);
+oracle_ratio oracle_between(koksma_points p, const double *corners, bool closed);
+
 /* Exact comparisons with a double, which may be any but a NaN (no NaN compares). */
 bool oracle_at_least(oracle_ratio r, double v);
 bool oracle_at_most(oracle_ratio r, double v);

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "box.h"
 #include "cells.h"
 #include "curve.h"
 #include "edge.h"
@@ -97,6 +98,25 @@ static koksma_status lines_job(koksma_error *err)
     koksma_star_result r = {0};
 
     return koksma_star(&r, (koksma_points){x, 3, 2}, &opts, err);
+}
+
+static koksma_status box_by(koksma_box_method method, koksma_error *err)
+{
+    static const double x[] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6};
+    koksma_box_opts opts = {.method = method, .threads = 1};
+    koksma_box_result r = {0};
+
+    return koksma_box_discrepancy(&r, (koksma_points){x, 3, 2}, &opts, err);
+}
+
+static koksma_status box_sweep_job(koksma_error *err)
+{
+    return box_by(KOKSMA_BOX_SWEEP, err);
+}
+
+static koksma_status box_tree_job(koksma_error *err)
+{
+    return box_by(KOKSMA_BOX_TREE, err);
 }
 
 static koksma_status l2_by(koksma_l2_method method, koksma_error *err)
@@ -356,6 +376,8 @@ START_TEST(every_allocation_may_fail)
     ck_assert_int_ge(exhaust(sweep_job), 2);
     ck_assert_int_ge(exhaust(tree_job), 20);
     ck_assert_int_ge(exhaust(lines_job), 8);
+    ck_assert_int_ge(exhaust(box_sweep_job), 8);
+    ck_assert_int_ge(exhaust(box_tree_job), 8);
     ck_assert_int_ge(exhaust(dem_job), 2);
     ck_assert_int_ge(exhaust(search_job), 7);
     ck_assert_int_ge(exhaust(pairs_job), 3);

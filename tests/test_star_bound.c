@@ -9,7 +9,7 @@
 
 #include "num_kernels.h"
 #include "oracle.h"
-#include "star_tree_kernels.h"
+#include "star_kernels.h"
 
 /* The most axes, points, ranks an axis, corners of a cell, cells on a path. */
 enum { DIMS = 16, POINTS = 20, RANKS = POINTS + 2, CORNERS = 4096, DEPTH = 4 };
@@ -149,7 +149,7 @@ static koksma_interval deviation(const fixture *f, const uint32_t *z)
 }
 
 /* Whether every side of the corner ends at a point that the others leave inside, or
- * an open one at 1: the corners that star_cell.c promises not to lose.  The point
+ * an open one at 1: the corners that tree_cell.c promises not to lose.  The point
  * itself is outside along that axis alone if the box is open, and else nowhere. */
 static bool is_critical(const fixture *f, const uint32_t *z)
 {
@@ -280,7 +280,7 @@ static bool narrow(fixture *f, ki_cell *c)
 
 /* ---- The bound --------------------------------------------------------------- */
 
-/* The units of star_bound_closed.c and star_bound_open.c. */
+/* The units of tree_bound_closed.c and tree_bound_open.c. */
 enum { CHARGE = 1 << 15, WEIGHT = 256 };
 
 /* The weight of every live point is one of 0 to 1 (open boxes), or its shares sum
@@ -463,7 +463,7 @@ START_TEST(cells_are_bounded)
         for (int closed = 0; closed < 2; closed++) {
             ki_ranks *r = &f.kind[closed];
 
-            ck_assert(ki_ranks_make(r, f.p, closed) == KOKSMA_OK);
+            ck_assert(ki_ranks_make(r, f.p, closed, &ki_star_measure) == KOKSMA_OK);
             f.ranks = r;
             check_paths(&f);
             ki_ranks_free(r);

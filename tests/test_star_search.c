@@ -8,7 +8,8 @@
 
 #include "gen.h"
 #include "oracle.h"
-#include "star_climb_kernels.h"
+#include "star_kernels.h"
+#include "tree_climb_kernels.h"
 
 enum { DIMS = 24, NUMBERS = 24000 };
 
@@ -162,7 +163,7 @@ static void check_summit(koksma_points p, bool closed, uint64_t seed)
     ki_best best = ki_best_begin(p, corner);
     ki_ranks ranks;
 
-    ck_assert_int_eq(ki_ranks_make(&ranks, p, closed), KOKSMA_OK);
+    ck_assert_int_eq(ki_ranks_make(&ranks, p, closed, &ki_star_measure), KOKSMA_OK);
     ck_assert_double_ge(climb(&best, &ranks, 1, seed), (double)(p.n * p.dim));
     ki_ranks_free(&ranks);
     if (best.value.lower == 0.0) return; /* a summit below the plain */
@@ -213,7 +214,7 @@ START_TEST(elite)
     ki_climber c;
     bool renewed = false;
 
-    ck_assert_int_eq(ki_ranks_make(&ranks, p, true), KOKSMA_OK);
+    ck_assert_int_eq(ki_ranks_make(&ranks, p, true, &ki_star_measure), KOKSMA_OK);
     ck_assert_int_eq(ki_climber_begin(&c, &ranks, &best, 1), KOKSMA_OK);
     for (size_t starts = 1; starts <= 1000; starts++) {
         size_t before = c.elites;
@@ -244,7 +245,7 @@ static int agreeing(koksma_points p, size_t starts)
     int count = 0;
     ki_ranks ranks;
 
-    ck_assert_int_eq(ki_ranks_make(&ranks, p, true), KOKSMA_OK);
+    ck_assert_int_eq(ki_ranks_make(&ranks, p, true, &ki_star_measure), KOKSMA_OK);
     for (uint64_t seed = 0; seed < SEEDS; seed++) {
         double corner[DIMS] = {0.0};
         ki_best best = ki_best_begin(p, corner);

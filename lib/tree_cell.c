@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "error.h"
-#include "star_tree_kernels.h"
+#include "tree_kernels.h"
 
 /* A cell narrows along one axis or more; points change their standing, and every
  * change is logged, so that leaving the cell takes it back.  Lists are sorted by
@@ -82,17 +82,17 @@ static bool raise_low(ki_worker *w, ki_cell *c, size_t k, uint32_t low)
 /* Copy the lists without the points that are out along another axis. */
 static bool copy_lists(ki_worker *w, ki_cell *c)
 {
-    size_t dim = w->ranks->dim, all = c->free_entry;
+    size_t axes = w->ranks->axes, all = c->free_entry;
     ki_entry *to;
 
-    for (size_t k = 0; k < dim; k++)
+    for (size_t k = 0; k < axes; k++)
         all += c->end[k] - c->begin[k];
     /* One more: the copy below writes before it knows whether to keep. */
     if (ki_grow((void **)&w->entry, &w->room_entries, all + 1, sizeof *w->entry) !=
         0)
         return false;
     to = w->entry + c->free_entry;
-    for (size_t k = 0; k < dim; k++) {
+    for (size_t k = 0; k < axes; k++) {
         const ki_entry *e = w->entry + c->begin[k], *end = w->entry + c->end[k];
         const ki_entry *own = end; /* from here on out along k itself */
 
@@ -153,7 +153,7 @@ static bool compact(ki_worker *w, ki_cell *c)
 
 bool ki_cell_narrow(ki_worker *w, ki_cell *c)
 {
-    for (size_t k = 0; k < w->ranks->dim; k++) {
+    for (size_t k = 0; k < w->ranks->axes; k++) {
         if (w->new_high[k] < c->high[k] && !lower_high(w, c, k, w->new_high[k]))
             return false;
         if (w->new_low[k] > c->low[k] && !raise_low(w, c, k, w->new_low[k]))
@@ -186,7 +186,7 @@ bool ki_cell_settle(ki_worker *w, ki_cell *c, bool *empty)
     *empty = false;
     while (changed) {
         changed = false;
-        for (size_t k = 0; k < w->ranks->dim; k++) {
+        for (size_t k = 0; k < w->ranks->axes; k++) {
             /* An open box may reach to 1 without a point there. */
             bool to_one =
                 w->ranks->shift > 0 && c->high[k] == w->ranks->axis[k].top;
@@ -222,19 +222,19 @@ void ki_cell_leave(ki_worker *w, const ki_cell *c)
 /* Room for one more cell on the path; its arrays stay with it. */
 static ki_cell *cell_at(ki_worker *w, size_t depth)
 {
-    size_t dim = w->ranks->dim;
+    size_t axes = w->ranks->axes;
 
     if (ki_grow((void **)&w->cell, &w->room_cells, depth + 1, sizeof *w->cell) != 0)
         return NULL;
     if (depth == w->cells) {
         ki_cell *c = &w->cell[depth];
-        char *memory = ki_alloc(2 * dim, sizeof *c->begin + sizeof *c->low);
+        char *memory = ki_alloc(2 * axes, sizeof *c->begin + sizeof *c->low);
 
         if (memory == NULL) return NULL;
         c->begin = (size_t *)memory;
-        c->end = c->begin + dim;
-        c->low = (uint32_t *)(c->end + dim);
-        c->high = c->low + dim;
+        c->end = c->begin + axes;
+        c->low = (uint32_t *)(c->end + axes);
+        c->high = c->low + axes;
         w->cells++;
     }
     return &w->cell[depth];
@@ -242,21 +242,21 @@ static ki_cell *cell_at(ki_worker *w, size_t depth)
 
 ki_cell *ki_cell_enter(ki_worker *w, size_t depth)
 {
-    size_t dim = w->ranks->dim;
+    size_t axes = w->ranks->axes;
     ki_cell *c = cell_at(w, depth);
     const ki_cell *from;
 
     if (c == NULL) return NULL;
     from = c - 1;
-    memcpy(c->low, from->low, dim * sizeof *c->low);
-    memcpy(c->high, from->high, dim * sizeof *c->high);
-    memcpy(c->begin, from->begin, dim * sizeof *c->begin);
-    memcpy(c->end, from->end, dim * sizeof *c->end);
+    memcpy(c->low, from->low, axes * sizeof *c->low);
+    memcpy(c->high, from->high, axes * sizeof *c->high);
+    memcpy(c->begin, from->begin, axes * sizeof *c->begin);
+    memcpy(c->end, from->end, axes * sizeof *c->end);
     c->live = from->live;
     c->lives = from->lives;
     c->inside = from->inside;
     c->free_entry = from->begin[0];
-    for (size_t k = 0; k < dim; k++)
+    for (size_t k = 0; k < axes; k++)
         if (from->end[k] > c->free_entry) c->free_entry = from->end[k];
     if (from->free_entry > c->free_entry) c->free_entry = from->free_entry;
     c->undo = c->compact = w->logged;
@@ -272,12 +272,12 @@ static bool enter_root(ki_worker *w)
     ki_cell *c = cell_at(w, 0);
     size_t at = 0, all;
 
-    if (c == NULL || __builtin_mul_overflow(r->n, r->dim, &all) ||
+    if (c == NULL || __builtin_mul_overflow(r->n, r->axes, &all) ||
         ki_grow((void **)&w->entry, &w->room_entries, all + 1, sizeof *w->entry) !=
             0 ||
         ki_grow((void **)&w->live, &w->room_live, r->n + 1, sizeof *w->live) != 0)
         return false;
-    for (size_t k = 0; k < r->dim; k++) {
+    for (size_t k = 0; k < r->axes; k++) {
         const uint32_t *rank = r->rank + k * r->n;
 
         c->low[k] = 1;
@@ -288,7 +288,7 @@ static bool enter_root(ki_worker *w)
                 rank[i] + r->shift > 1 && rank[i] + r->shift <= c->high[k];
         }
     }
-    for (size_t k = 0; k < r->dim; k++) {
+    for (size_t k = 0; k < r->axes; k++) {
         c->begin[k] = at;
         for (size_t j = 0; j < r->n; j++) {
             uint32_t i = r->order[k * r->n + j], rank = r->rank[k * r->n + i];
@@ -314,20 +314,22 @@ static bool enter_root(ki_worker *w)
 
 koksma_status ki_worker_begin(ki_worker *w, ki_run *run, const ki_ranks *ranks)
 {
-    size_t n = ranks->n, dim = ranks->dim;
+    size_t n = ranks->n, axes = ranks->axes;
 
     *w = (ki_worker){.run = run, .ranks = ranks};
     w->standing = calloc(n, sizeof *w->standing);
-    w->new_low = ki_alloc(dim, sizeof *w->new_low);
-    w->new_high = ki_alloc(dim, sizeof *w->new_high);
-    w->best_term = ki_alloc(dim, sizeof *w->best_term);
-    w->pillars = ki_alloc(dim, sizeof *w->pillars);
-    w->best_rank = ki_alloc(dim, sizeof *w->best_rank);
-    w->corner = ki_alloc(dim, sizeof *w->corner);
+    w->new_low = ki_alloc(axes, sizeof *w->new_low);
+    w->new_high = ki_alloc(axes, sizeof *w->new_high);
+    w->best_term = ki_alloc(axes, 2 * sizeof *w->best_term);
+    w->pillars = ki_alloc(axes, sizeof *w->pillars);
+    w->best_rank = ki_alloc(axes, sizeof *w->best_rank);
+    w->corner = ki_alloc(axes, sizeof *w->corner);
     if (w->standing != NULL && w->new_low != NULL && w->new_high != NULL &&
         w->best_term != NULL && w->pillars != NULL && w->best_rank != NULL &&
-        w->corner != NULL && enter_root(w))
-        return KOKSMA_OK;
+        w->corner != NULL) {
+        w->slope = w->best_term + axes;
+        if (enter_root(w)) return KOKSMA_OK;
+    }
     ki_worker_end(w);
     return KOKSMA_ENOMEM;
 }

@@ -1,21 +1,20 @@
-#include <float.h>
 #include <math.h>
 
-#include "star_tree_kernels.h"
+#include "tree_kernels.h"
 
-/* The bound for closed boxes; star_bound.c has the mathematics. */
+/* The bound for closed boxes; tree_bound.c has the mathematics. */
 
 /* How far each entry is from the lower end, and for each point the axis where it
  * stands highest. */
-static void measure(ki_worker *w, const ki_cell *c)
+static void measure_gaps(ki_worker *w, const ki_cell *c)
 {
     double *gap = w->gap;
 
     for (size_t i = 0; i < c->lives; i++)
         w->standing[w->live[c->live + i]].reach = -1.0f;
-    for (size_t k = 0; k < w->ranks->dim; k++) {
-        const double *log = w->ranks->axis[k].log;
-        double low = log[c->low[k]], inverse = ki_inverse_width(w, c, k);
+    for (size_t k = 0; k < w->ranks->axes; k++) {
+        const double *place = w->ranks->axis[k].place;
+        double low = place[c->low[k]], inverse = ki_inverse_width(w, c, k);
         ki_span open = ki_open_entries(w, c, k);
         size_t pillars = 0;
 
@@ -25,7 +24,7 @@ static void measure(ki_worker *w, const ki_cell *c)
             ki_standing *s = &w->standing[w->entry[i].point];
             float up;
 
-            *gap = log[w->entry[i].rank] - low;
+            *gap = place[w->entry[i].rank] - low;
             up = (float)(*gap++ * inverse);
             s->choice = up > s->reach ? (uint32_t)k : s->choice;
             s->reach = up > s->reach ? up : s->reach;
@@ -47,7 +46,7 @@ static void choose_outside(ki_worker *w, const ki_cell *c)
 {
     for (size_t i = 0; i < c->lives; i++)
         w->standing[w->live[c->live + i]].choice = INSIDE;
-    for (size_t k = 0; k < w->ranks->dim; k++)
+    for (size_t k = 0; k < w->ranks->axes; k++)
         for (size_t i = c->end[k];
              i-- > c->begin[k] && w->entry[i].rank > w->best_rank[k];)
             w->standing[w->entry[i].point].choice = (uint32_t)k;
@@ -57,13 +56,13 @@ static void choose_outside(ki_worker *w, const ki_cell *c)
  * moves 1/round of the charges of every point to the axis of its choice, if it has
  * one, and finds the terms with these charges, and the greatest of them. */
 static void walk(ki_worker *w, const ki_cell *c, size_t k, size_t at,
-                 uint32_t round, double slope)
+                 uint32_t round)
 {
     const ki_entry *e = w->entry + c->begin[k];
     const double *gap = w->gap + at;
     uint16_t *share = w->share + at;
     double *term = w->term + at, greatest = -HUGE_VAL;
-    double unit = 1.0 / ((double)WHOLE * (double)w->ranks->n);
+    double unit = 1.0 / ((double)WHOLE * (double)w->ranks->n), slope = w->slope[k];
     size_t count = c->end[k] - c->begin[k], i, best = 0;
     uint32_t part = 65536 / round, gain = (WHOLE + round - 1) / round;
     int64_t passed = 0;
@@ -88,56 +87,38 @@ static void walk(ki_worker *w, const ki_cell *c, size_t k, size_t at,
     w->best_rank[k] = e[best].rank;
 }
 
-/* Bound the cell with the tangent at `at`, after a round of moving charges. */
-static double evaluate(ki_worker *w, const ki_cell *c, ki_extent x, double at,
+/* Bound the cell after a round of moving charges. */
+static double evaluate(ki_worker *w, const ki_cell *c, const ki_slopes *line,
                        uint32_t round, double target)
 {
-    size_t dim = w->ranks->dim, before = 0;
-    double slope = fmax(exp(at), DBL_MIN); /* any slope above 0 makes a bound */
-    double touch = log(slope), margin, bound;
+    double bound =
+        (double)c->inside / (double)w->ranks->n + line->margin - line->base;
+    size_t before = 0;
 
-    margin = ki_bound_pad(dim, slope * (x.logs - touch + 1.0));
-    bound = (double)c->inside / (double)w->ranks->n + margin -
-            slope * (1.0 + x.log_low - touch);
-    for (size_t k = 0; k < dim; k++) {
-        walk(w, c, k, before, round, slope);
+    for (size_t k = 0; k < w->ranks->axes; k++) {
+        walk(w, c, k, before, round);
         bound += w->best_term[k];
         before += c->end[k] - c->begin[k];
     }
-    if (bound >= target) ki_tighten(w, c, bound - target + margin, 1.0);
+    if (bound >= target) ki_tighten(w, c, bound - target + line->margin, 1.0);
     return bound;
-}
-
-/* The logarithm of the volume of the corner that was found best. */
-static double log_of_best(const ki_worker *w)
-{
-    double sum = 0.0;
-
-    for (size_t k = 0; k < w->ranks->dim; k++)
-        sum += w->ranks->axis[k].log[w->best_rank[k]];
-    return sum;
 }
 
 double ki_bound_closed(ki_worker *w, const ki_cell *c, double target)
 {
-    double most = (double)(c->inside + c->lives) / (double)w->ranks->n;
-    ki_extent x = ki_cell_extent(w, c);
-    double bound = most - x.volume_low + ki_bound_pad(w->ranks->dim, 0.0), greatest,
-           at;
+    const ki_measure *measure = w->ranks->measure;
+    ki_slopes line;
+    double bound;
 
-    if (bound < target) return bound;
-    /* A corner above the target has a volume below most - target.  The tangent
-     * touches between there and the volume at `low`, nearer to the former. */
-    greatest = fmin(most - target, x.volume_high);
-    at = x.log_low;
-    if (greatest > x.volume_low) at += 0.65 * (log(greatest) - x.log_low);
-    measure(w, c);
-    bound = evaluate(w, c, x, at, 1, target);
+    measure->closed(w, c, target, 0, &line);
+    if (line.quick < target) return line.quick;
+    measure_gaps(w, c);
+    bound = evaluate(w, c, &line, 1, target);
     for (uint32_t round = 1;
          bound >= target && ki_round_pays(w, round, bound - target); round++) {
-        at += (log_of_best(w) - at) / (round + 1);
+        measure->closed(w, c, target, round, &line);
         choose_outside(w, c);
-        bound = fmin(bound, evaluate(w, c, x, at, round + 1, target));
+        bound = fmin(bound, evaluate(w, c, &line, round + 1, target));
     }
     return bound;
 }

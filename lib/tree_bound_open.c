@@ -1,8 +1,8 @@
 #include <math.h>
 
-#include "star_tree_kernels.h"
+#include "tree_kernels.h"
 
-/* The bound for open boxes; star_bound.c has the mathematics. */
+/* The bound for open boxes; tree_bound.c has the mathematics. */
 
 /* A whole weight, in the units of a point's choice. */
 enum { WHOLE = 256 };
@@ -22,22 +22,22 @@ static double constant_of(const ki_worker *w, const ki_cell *c)
 }
 
 /* How far each entry is from the upper end, and each point up its ranges. */
-static void measure(ki_worker *w, const ki_cell *c)
+static void measure_gaps(ki_worker *w, const ki_cell *c)
 {
     double *gap = w->gap;
 
     for (size_t i = 0; i < c->lives; i++)
         w->standing[w->live[c->live + i]].reach = 0.0f;
-    for (size_t k = 0; k < w->ranks->dim; k++) {
-        const double *log = w->ranks->axis[k].log;
-        double high = log[c->high[k]], inverse = ki_inverse_width(w, c, k);
+    for (size_t k = 0; k < w->ranks->axes; k++) {
+        const double *place = w->ranks->axis[k].place;
+        double high = place[c->high[k]], inverse = ki_inverse_width(w, c, k);
         ki_span open = ki_open_entries(w, c, k);
         size_t pillars = 0;
 
         for (size_t i = open.begin; i < open.end; i++) {
             ki_standing *s = &w->standing[w->entry[i].point];
 
-            *gap = high - log[w->entry[i].rank];
+            *gap = high - place[w->entry[i].rank];
             s->reach += (float)(1.0 - *gap++ * inverse);
             pillars += s->opens > 1;
         }
@@ -65,7 +65,7 @@ static void reweigh(ki_worker *w, const ki_cell *c, uint32_t round)
 
     for (size_t i = 0; i < c->lives; i++)
         w->standing[live[i]].reach = 0.0f;
-    for (size_t k = 0; k < w->ranks->dim; k++) {
+    for (size_t k = 0; k < w->ranks->axes; k++) {
         ki_span open = ki_open_entries(w, c, k);
 
         /* From the upper end: those that are outside along k. */
@@ -82,30 +82,14 @@ static void reweigh(ki_worker *w, const ki_cell *c, uint32_t round)
     }
 }
 
-/* The slope of a line through (t_high, V) that stays above e^t on the volumes
- * that matter: those from E on.  The chord's is (V - E)/(log V - log E); less is
- * safe.  Below a width of 2^-10 the computed chord could err by more than its own
- * part, and the slope at its lower end, E, serves: it is nearly the same.  Above,
- * the difference V - E is good to dim 2^-41 of itself and the width to A 2^-40. */
-static double chord_slope(ki_extent x, double least, size_t dim)
-{
-    double low = fmax(least, x.volume_low), width;
-    double safe = 1.0 - (x.logs + (double)dim + 2.0) * 0x1p-38;
-
-    if (!(safe > 0.0) || !(low > 0.0) || low >= x.volume_high) return 0.0;
-    width = x.log_high - (low > x.volume_low ? log(low) : x.log_low);
-    if (width < 0x1p-10) return low * safe;
-    return (x.volume_high - low) / width * safe;
-}
-
 /* One walk along the list of axis k, whose gaps and terms begin at `at`: the terms,
  * and the least of them. */
-static void walk(ki_worker *w, const ki_cell *c, size_t k, size_t at, double slope)
+static void walk(ki_worker *w, const ki_cell *c, size_t k, size_t at)
 {
     const ki_entry *e = w->entry + c->begin[k];
     const double *gap = w->gap + at;
     double *term = w->term + at, least = HUGE_VAL, last;
-    double unit = 1.0 / ((double)WHOLE * (double)w->ranks->n);
+    double unit = 1.0 / ((double)WHOLE * (double)w->ranks->n), slope = w->slope[k];
     size_t count = c->end[k] - c->begin[k], i, best = 0;
     size_t end = ki_open_entries(w, c, k).end - c->begin[k];
     int64_t passed = 0;
@@ -129,41 +113,38 @@ static void walk(ki_worker *w, const ki_cell *c, size_t k, size_t at, double slo
 }
 
 /* Bound the cell with the weights as they are. */
-static double evaluate(ki_worker *w, const ki_cell *c, ki_extent x, double slope,
+static double evaluate(ki_worker *w, const ki_cell *c, const ki_slopes *line,
                        double target)
 {
-    size_t dim = w->ranks->dim;
-    double margin = ki_bound_pad(dim, slope * x.logs);
-    double bound = x.volume_high + margin -
+    double bound = line->base + line->margin -
                    ((double)c->inside - constant_of(w, c)) / (double)w->ranks->n;
     size_t at = 0;
 
-    for (size_t k = 0; k < dim; k++) {
-        walk(w, c, k, at, slope);
+    for (size_t k = 0; k < w->ranks->axes; k++) {
+        walk(w, c, k, at);
         bound -= w->best_term[k];
         at += c->end[k] - c->begin[k] + 1;
     }
-    if (bound >= target) ki_tighten(w, c, bound - target + margin, -1.0);
+    if (bound >= target) ki_tighten(w, c, bound - target + line->margin, -1.0);
     return bound;
 }
 
 double ki_bound_open(ki_worker *w, const ki_cell *c, double target)
 {
-    size_t dim = w->ranks->dim;
-    double inside = (double)c->inside / (double)w->ranks->n;
-    ki_extent x = ki_cell_extent(w, c);
-    double bound = x.volume_high - inside + ki_bound_pad(dim, 0.0), slope;
+    const ki_measure *measure = w->ranks->measure;
+    ki_slopes line;
+    double bound;
 
-    if (bound < target) return bound;
-    /* A corner above the target has a volume above target + inside. */
-    slope = chord_slope(x, (target + inside) * (1.0 - 0x1p-50), dim);
-    measure(w, c);
+    measure->open(w, c, target, 0, &line);
+    if (line.quick < target) return line.quick;
+    measure_gaps(w, c);
     weigh(w, c);
-    bound = evaluate(w, c, x, slope, target);
+    bound = evaluate(w, c, &line, target);
     for (uint32_t round = 1;
          bound >= target && ki_round_pays(w, round, bound - target); round++) {
         reweigh(w, c, round);
-        bound = fmin(bound, evaluate(w, c, x, slope, target));
+        measure->open(w, c, target, round, &line);
+        bound = fmin(bound, evaluate(w, c, &line, target));
     }
     return bound;
 }

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "error.h"
-#include "star_climb_kernels.h"
+#include "tree_climb_kernels.h"
 
 /* Coordinate ascent from many starts.  With all sides but one fixed, the points
  * inside along the other axes are walked in the order of that one, and the best
@@ -21,42 +21,54 @@
  */
 enum { FEW = 6, TIRED = 200, BLOCK = 16 };
 
+/* The coordinate of the j-th point along axis k. */
+static double value_at(const ki_ranks *r, size_t k, size_t j)
+{
+    return r->axis[k].value[r->rank[k * r->n + r->order[k * r->n + j]]];
+}
+
+/* A side that ends there; a lower one measures from 1 down. */
+static double length(const ki_ranks *r, size_t k, double value)
+{
+    return r->axes > r->dim && k < r->dim ? 1.0 - value : value;
+}
+
 koksma_status ki_climber_begin(ki_climber *c, const ki_ranks *ranks, ki_best *best,
                                uint64_t seed)
 {
-    size_t n = ranks->n, dim = ranks->dim, row;
+    size_t n = ranks->n, axes = ranks->axes, row;
     void *memory = NULL;
 
     /* A row an axis: sides, a corner, and cuts: its own, the elite's, and a turn.
      */
     if (!__builtin_mul_overflow(n + 1, sizeof(double), &row))
-        memory = ki_alloc(dim + 1, row + (KI_ELITE + 2) * sizeof(uint32_t));
+        memory = ki_alloc(axes + 2, row + (KI_ELITE + 2) * sizeof(uint32_t));
     if (memory == NULL) return KOKSMA_ENOMEM;
     *c = (ki_climber){.ranks = ranks, .best = best, .memory = memory};
     c->rng = koksma_rng_seed(seed, ranks->closed);
     c->side = memory;
-    c->corner = c->side + dim * n;
-    c->cut = (uint32_t *)(c->corner + dim);
-    c->turn = c->cut + dim;
+    c->width = c->side + axes * n;
+    c->corner = c->width + n;
+    c->cut = (uint32_t *)(c->corner + axes);
+    c->turn = c->cut + axes;
     for (size_t e = 0; e < KI_ELITE; e++)
-        c->elite[e].cut = c->turn + (e + 1) * dim;
-    c->outs = c->turn + (KI_ELITE + 1) * dim;
-    for (size_t k = 0; k < dim; k++)
+        c->elite[e].cut = c->turn + (e + 1) * axes;
+    c->outs = c->turn + (KI_ELITE + 1) * axes;
+    for (size_t k = 0; k < axes; k++)
         for (size_t j = 0; j < n; j++)
-            c->side[k * n + j] =
-                ranks->axis[k].value[ranks->rank[k * n + ranks->order[k * n + j]]];
-    for (size_t k = 0; k < dim; k++) {
+            c->side[k * n + j] = length(ranks, k, value_at(ranks, k, j));
+    for (size_t k = 0; k < axes; k++) {
         c->cut[k] = 0;
         c->turn[k] = (uint32_t)k;
     }
     for (size_t i = 0; i < n; i++)
-        c->outs[i] = (uint32_t)dim;
+        c->outs[i] = (uint32_t)axes;
     return KOKSMA_OK;
 }
 
 void ki_climber_end(ki_climber *c) { free(c->memory); }
 
-/* Where side k ends. */
+/* How long side k is. */
 static double end_of(const ki_climber *c, size_t k)
 {
     size_t n = c->ranks->n, cut = c->cut[k];
@@ -64,6 +76,38 @@ static double end_of(const ki_climber *c, size_t k)
 
     if (c->ranks->closed) return cut > 0 ? side[cut - 1] : 0.0;
     return cut < n ? side[cut] : 1.0;
+}
+
+/* Where it ends. */
+static double corner_of(const ki_climber *c, size_t k)
+{
+    const ki_ranks *r = c->ranks;
+    size_t cut = c->cut[k];
+
+    if (r->closed ? cut > 0 : cut < r->n)
+        return value_at(r, k, r->closed ? cut - 1 : cut);
+    return length(r, k, r->closed ? 0.0 : 1.0);
+}
+
+/* The width of a box between sides that long, seen from opposite faces. */
+static double width_of(double lower, double upper)
+{
+    double w = lower + upper - 1.0;
+
+    return w > 0.0 ? w : 0.0;
+}
+
+/* Times the product of the widths, but for that of coordinate `but`, if any. */
+static double times_widths(const ki_climber *c, double product, size_t but)
+{
+    const ki_ranks *r = c->ranks;
+
+    for (size_t k = 0; k < r->dim; k++)
+        if (k != but)
+            product *= r->measure->anchored
+                           ? end_of(c, k)
+                           : width_of(end_of(c, k), end_of(c, r->dim + k));
+    return product;
 }
 
 static void move_cut(ki_climber *c, size_t k, uint32_t cut)
@@ -95,7 +139,7 @@ typedef struct walk {
     const double *side;
     const uint32_t *order, *outs;
     bool closed;
-    double volume;  /* n times the product of the other sides */
+    double volume;  /* n times the product of the other widths */
     double excess;  /* to be exceeded, */
     size_t at;      /* and where the best cut so far is */
     uint32_t count; /* points passed that are inside along the other axes */
@@ -151,26 +195,42 @@ static void walk_along(walk *w, size_t begin, size_t end, uint32_t outs)
     }
 }
 
+/* The widths of the box for every end of side k; *whole: when it has no end. */
+static const double *widths(ki_climber *c, size_t k, double *whole)
+{
+    const ki_ranks *r = c->ranks;
+    const double *side = c->side + k * r->n;
+    double across;
+
+    *whole = 1.0;
+    if (r->measure->anchored) return side;
+    across = end_of(c, k < r->dim ? k + r->dim : k - r->dim);
+    for (size_t j = 0; j < r->n; j++)
+        c->width[j] = width_of(side[j], across);
+    *whole = across;
+    return c->width;
+}
+
 /* Give side k its best length.  Returns whether that exceeds *excess, n times the
  * deviation of the box, by more than rounding may do; it is then updated. */
 static bool line_search(ki_climber *c, size_t k, double *excess)
 {
     const ki_ranks *r = c->ranks;
     size_t n = r->n;
-    walk w = {.side = c->side + k * n,
+    double whole;
+    walk w = {.side = widths(c, k, &whole),
               .order = r->order + k * n,
               .outs = c->outs,
               .closed = r->closed,
-              .volume = (double)n,
+              .volume = times_widths(c, (double)n, k % r->dim),
               .excess = *excess + c->best->slack * (double)n,
               .at = SIZE_MAX};
 
-    for (size_t l = 0; l < r->dim; l++)
-        if (l != k) w.volume *= end_of(c, l);
     walk_along(&w, 0, c->cut[k], 0);
     walk_along(&w, c->cut[k], n, 1);
-    if (!r->closed && w.volume - (double)w.count > w.excess) {
-        w.excess = w.volume - (double)w.count;
+    whole *= w.volume;
+    if (!r->closed && whole - (double)w.count > w.excess) {
+        w.excess = whole - (double)w.count;
         w.at = n;
     }
     c->work += (double)n;
@@ -182,7 +242,7 @@ static bool line_search(ki_climber *c, size_t k, double *excess)
 
 static void shuffle(ki_climber *c)
 {
-    for (size_t k = c->ranks->dim; k > 1; k--) {
+    for (size_t k = c->ranks->axes; k > 1; k--) {
         size_t l = koksma_rng_below(&c->rng, k);
         uint32_t keep = c->turn[k - 1];
 
@@ -194,10 +254,10 @@ static void shuffle(ki_climber *c)
 /* Turn from axis to axis until none makes the box better. */
 static void climb(ki_climber *c)
 {
-    size_t dim = c->ranks->dim;
+    size_t axes = c->ranks->axes;
     double excess = -(double)c->ranks->n; /* below that of any box */
 
-    for (size_t t = 0, idle = 0; idle < dim; t = (t + 1) % dim, idle++)
+    for (size_t t = 0, idle = 0; idle < axes; t = (t + 1) % axes, idle++)
         if (line_search(c, c->turn[t], &excess)) idle = 0;
 }
 
@@ -205,14 +265,14 @@ static void climb(ki_climber *c)
  * whichever way led there. */
 static double offer(ki_climber *c)
 {
-    double n = (double)c->ranks->n, volume = 1.0, excess;
+    double n = (double)c->ranks->n, excess;
     uint32_t inside = 0;
 
-    for (size_t k = 0; k < c->ranks->dim; k++)
-        volume *= c->corner[k] = end_of(c, k);
+    for (size_t k = 0; k < c->ranks->axes; k++)
+        c->corner[k] = corner_of(c, k);
     for (size_t i = 0; i < c->ranks->n; i++)
         inside += c->outs[i] == 0;
-    excess = n * volume - (double)inside;
+    excess = n * times_widths(c, 1.0, SIZE_MAX) - (double)inside;
     if (c->ranks->closed) excess = -excess;
     if (excess / n > c->best->bar)
         ki_best_offer(c->best, c->corner, inside, c->ranks->closed);
@@ -222,7 +282,7 @@ static double offer(ki_climber *c)
 /* Put the box among the elite, unless it is there or not good enough. */
 static void keep(ki_climber *c, double excess)
 {
-    size_t bytes = c->ranks->dim * sizeof *c->cut, at = 0;
+    size_t bytes = c->ranks->axes * sizeof *c->cut, at = 0;
 
     while (at < c->elites && c->elite[at].excess >= excess) {
         if (memcmp(c->elite[at].cut, c->cut, bytes) == 0) return;
@@ -270,19 +330,19 @@ static uint32_t random_cut(ki_climber *c, size_t k, size_t numbers)
  * Those sides take their turn last, else they would go straight back. */
 static void choose_start(ki_climber *c)
 {
-    size_t dim = c->ranks->dim,
-           few = 1 + koksma_rng_below(&c->rng, dim < FEW ? dim : FEW);
+    size_t axes = c->ranks->axes,
+           few = 1 + koksma_rng_below(&c->rng, axes < FEW ? axes : FEW);
     bool fresh = c->elites == 0 || c->starts % 3 == 0;
     const uint32_t *from =
         fresh ? NULL : c->elite[koksma_rng_below(&c->rng, c->elites)].cut;
 
     shuffle(c);
-    for (size_t t = 0; t < dim; t++) {
+    for (size_t t = 0; t < axes; t++) {
         size_t k = c->turn[t];
-        bool is_short = t + few >= dim;
+        bool is_short = t + few >= axes;
 
         if (is_short)
-            move_cut(c, k, random_cut(c, k, fresh ? few : dim));
+            move_cut(c, k, random_cut(c, k, fresh ? few : axes));
         else
             move_cut(c, k, fresh ? full_cut(c, k) : from[k]);
     }

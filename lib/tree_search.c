@@ -1,4 +1,4 @@
-#include "star_climb_kernels.h"
+#include "tree_climb_kernels.h"
 
 /* The heuristic alone. */
 
@@ -11,7 +11,7 @@ static const double UPPER = 1.0;
 
 typedef struct search {
     const ki_best *best;
-    const koksma_star_opts *opts;
+    const ki_run_opts *opts;
     double work, next_report;
     bool stopped;
 } search;
@@ -19,7 +19,7 @@ typedef struct search {
 static bool told_to_stop(void *state, double work)
 {
     search *s = state;
-    const koksma_star_opts *opts = s->opts;
+    const ki_run_opts *opts = s->opts;
 
     s->work = work;
     if (work < s->next_report) return false;
@@ -31,14 +31,15 @@ static bool told_to_stop(void *state, double work)
     return s->stopped;
 }
 
-koksma_status ki_star_search(ki_best *b, const koksma_star_opts *opts,
-                             double *upper, double *work, bool *stopped)
+koksma_status ki_tree_search(ki_best *b, const ki_run_opts *opts,
+                             const ki_measure *measure, double *upper, double *work,
+                             bool *stopped)
 {
     search s = {.best = b, .opts = opts, .next_report = 0x1p20};
     ki_ranks ranks[2] = {{0}};
-    koksma_status status = ki_ranks_make(&ranks[0], b->p, false);
+    koksma_status status = ki_ranks_make(&ranks[0], b->p, false, measure);
 
-    if (status == KOKSMA_OK) status = ki_ranks_make(&ranks[1], b->p, true);
+    if (status == KOKSMA_OK) status = ki_ranks_make(&ranks[1], b->p, true, measure);
     if (status == KOKSMA_OK)
         status =
             ki_climb(b, ranks, opts->seed, PATIENCE * b->p.dim, told_to_stop, &s);

@@ -3,14 +3,43 @@
 #include <string.h>
 
 #include "num_kernels.h"
-#include "star_kernels.h"
+#include "tree_best_kernels.h"
+
+/* Whether x is in a box.  An anchored one has no lower sides. */
+static bool is_inside(const double *x, const double *corner, size_t sides,
+                      size_t dim, bool closed)
+{
+    const double *upper = corner + (sides - dim);
+    size_t k = 0;
+
+    while (k < dim && (closed ? x[k] <= upper[k] : x[k] < upper[k]) &&
+           (sides == dim || (closed ? x[k] >= corner[k] : x[k] > corner[k])))
+        k++;
+    return k == dim;
+}
+
+size_t ki_box_count(koksma_points p, const double *corner, size_t sides,
+                    bool closed)
+{
+    size_t inside = 0;
+
+    for (size_t i = 0; i < p.n; i++)
+        inside += is_inside(p.x + i * p.dim, corner, sides, p.dim, closed);
+    return inside;
+}
+
+static ki_twofold volume(const double *corner, size_t sides, size_t dim)
+{
+    return sides == dim ? ki_volume(corner, dim)
+                        : ki_volume_between(corner, corner + dim, dim);
+}
 
 /* No deviation is above 1, though a rounded one may seem so. */
 koksma_interval ki_box_deviation(koksma_points p, const double *corner,
-                                 size_t inside, bool closed)
+                                 size_t sides, size_t inside, bool closed)
 {
-    koksma_interval v =
-        ki_deviation(closed ? 1.0 : -1.0, inside, p.n, ki_volume(corner, p.dim));
+    koksma_interval v = ki_deviation(closed ? 1.0 : -1.0, inside, p.n,
+                                     volume(corner, sides, p.dim));
 
     if (v.upper > 1.0) v.upper = 1.0;
     return v;
@@ -34,7 +63,7 @@ static bool is_better(const ki_best *b, ki_twofold excess, const double *corner)
 {
     if (excess.hi != b->excess.hi) return excess.hi > b->excess.hi;
     if (excess.lo != b->excess.lo) return excess.lo > b->excess.lo;
-    return precedes(corner, b->witness.corner, b->p.dim);
+    return precedes(corner, b->witness.corner, b->sides);
 }
 
 /* Two boxes whose excesses differ by less than the errors of both: either may be
@@ -44,16 +73,16 @@ static bool may_tie(ki_twofold a, ki_twofold b)
     return fabs((a.hi - b.hi) + (a.lo - b.lo)) <= a.err + b.err;
 }
 
-/* Whether side k of a closed box ends at a point in it. */
-static bool is_held(koksma_points p, const double *corner, size_t k)
+/* Whether side s of a closed box ends at a point in it. */
+static bool is_held(const ki_best *b, const double *corner, size_t s)
 {
-    for (size_t i = 0; i < p.n; i++) {
-        const double *x = p.x + i * p.dim;
-        size_t l = x[k] == corner[k] ? 0 : p.dim + 1;
+    size_t dim = b->p.dim;
 
-        while (l < p.dim && x[l] <= corner[l])
-            l++;
-        if (l == p.dim) return true;
+    for (size_t i = 0; i < b->p.n; i++) {
+        const double *x = b->p.x + i * dim;
+
+        if (x[s % dim] == corner[s] && is_inside(x, corner, b->sides, dim, true))
+            return true;
     }
     return false;
 }
@@ -68,7 +97,17 @@ static bool is_loose(const ki_best *b, const double *corner, bool closed,
     size_t k = 0;
 
     if (!closed || vol > 0x1p-40) return false;
-    while (k < b->p.dim && is_held(b->p, corner, k))
+    while (k < b->sides && is_held(b, corner, k))
+        k++;
+    return k < b->sides;
+}
+
+static bool is_crossed(const ki_best *b, const double *corner)
+{
+    size_t k = 0;
+
+    if (b->sides == b->p.dim) return false;
+    while (k < b->p.dim && corner[k] <= corner[b->p.dim + k])
         k++;
     return k < b->p.dim;
 }
@@ -77,14 +116,16 @@ static bool is_loose(const ki_best *b, const double *corner, bool closed,
  * all others are surely below.  So it does not depend on the order either. */
 void ki_best_offer(ki_best *b, const double *corner, size_t inside, bool closed)
 {
-    ki_twofold vol = ki_volume(corner, b->p.dim);
+    if (is_crossed(b, corner)) return;
+
+    ki_twofold vol = volume(corner, b->sides, b->p.dim);
     ki_twofold excess = ki_excess(closed ? 1.0 : -1.0, inside, b->p.n, vol);
     bool better = is_better(b, excess, corner), tie = may_tie(excess, b->excess);
 
     if ((!better && !tie) || is_loose(b, corner, closed, vol.hi)) return;
     if (tie) excess.err = b->excess.err = fmax(excess.err, b->excess.err);
     if (better) {
-        memcpy(b->witness.corner, corner, b->p.dim * sizeof *corner);
+        memcpy(b->witness.corner, corner, b->sides * sizeof *corner);
         b->witness.inside = inside;
         b->witness.closed = closed;
         b->excess = excess;
@@ -95,13 +136,27 @@ void ki_best_offer(ki_best *b, const double *corner, size_t inside, bool closed)
     b->bar = b->value.lower - b->slack;
 }
 
-/* A plain deviation is off by less than dim + 2 half-ulps of 1: dim - 1 products,
- * two roundings in count * (1/n) or one in count/n, one subtraction, and a
- * margin for second-order terms and underflow. */
+/* A plain deviation is off by less than sides + 2 half-ulps of 1: dim - 1 products,
+ * the dim widths of a box that is not anchored, two roundings in count * (1/n) or
+ * one in count/n, one subtraction, and a margin for second-order terms and
+ * underflow. */
+static ki_best begin(koksma_points p, size_t sides, double *corner)
+{
+    double slack = (double)(sides + 2) * 2.0 * DBL_EPSILON;
+
+    return (ki_best){.p = p,
+                     .sides = sides,
+                     .witness.corner = corner,
+                     .slack = slack,
+                     .bar = -slack};
+}
+
 ki_best ki_best_begin(koksma_points p, double *corner)
 {
-    double slack = (double)(p.dim + 2) * 2.0 * DBL_EPSILON;
+    return begin(p, p.dim, corner);
+}
 
-    return (ki_best){
-        .p = p, .witness.corner = corner, .slack = slack, .bar = -slack};
+ki_best ki_best_begin_between(koksma_points p, double *both)
+{
+    return begin(p, 2 * p.dim, both);
 }

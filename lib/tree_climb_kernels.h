@@ -1,11 +1,11 @@
-#ifndef KI_STAR_CLIMB_KERNELS_H
-#define KI_STAR_CLIMB_KERNELS_H
+#ifndef KI_TREE_CLIMB_KERNELS_H
+#define KI_TREE_CLIMB_KERNELS_H
 
 #include <stddef.h>
 #include <stdint.h>
 
 #include "rng.h"
-#include "star_tree_kernels.h"
+#include "tree_kernels.h"
 
 /* Private: finding good boxes fast.  What is offered to the incumbent is evaluated
  * there, so nothing rests on this search but how soon the rest of it is done. */
@@ -23,11 +23,14 @@ typedef struct ki_climber {
     const ki_ranks *ranks;
     ki_best *best;
     koksma_rng rng;
-    double *side;   /* side[k*n + j]: coordinate k of the j-th point along axis k */
-    uint32_t *outs; /* n: axes along which a point is out */
-    uint32_t *cut;  /* dim: the box that the climber is at */
-    uint32_t *turn; /* dim: the axes, in the order of a round */
-    double *corner; /* dim */
+    double
+        *side; /* side[k*n + j]: how far from its low end axis k's j-th point is */
+    double
+        *width; /* n: the same of the side that is searched, as widths of boxes */
+    uint32_t *outs;            /* n: axes along which a point is out */
+    uint32_t *cut;             /* axes: the box that the climber is at */
+    uint32_t *turn;            /* axes: the axes, in the order of a round */
+    double *corner;            /* axes */
     ki_summit elite[KI_ELITE]; /* the best summits, the best first */
     size_t elites, idle;       /* idle: starts since the best of them got better */
     size_t starts;             /* done */

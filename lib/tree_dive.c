@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "error.h"
-#include "star_tree_kernels.h"
+#include "tree_kernels.h"
 
 /* Depth first, the upper part of a cell first: large boxes hold the extremes. */
 
@@ -11,9 +11,9 @@ static bool is_corner(ki_worker *w, const ki_cell *c)
 {
     const ki_ranks *r = w->ranks;
 
-    for (size_t k = 0; k < r->dim; k++)
+    for (size_t k = 0; k < r->axes; k++)
         if (c->low[k] != c->high[k]) return false;
-    for (size_t k = 0; k < r->dim; k++)
+    for (size_t k = 0; k < r->axes; k++)
         w->corner[k] = r->axis[k].value[c->low[k]];
     ki_run_offer(w->run, w->corner, c->inside, r->closed);
     return true;
@@ -23,22 +23,23 @@ static size_t entries(const ki_worker *w, const ki_cell *c)
 {
     size_t sum = 0;
 
-    for (size_t k = 0; k < w->ranks->dim; k++)
+    for (size_t k = 0; k < w->ranks->axes; k++)
         sum += c->end[k] - c->begin[k];
     return sum;
 }
 
-/* Split where most points are open along other axes too, over the longest range,
- * at the middle of the list. */
+/* Split where most points are open along other axes too, over the longest range if
+ * places are logarithms, at the middle of the list.  Measured. */
 static void choose_split(ki_worker *w, ki_cell *c)
 {
     double best = -1.0;
 
-    for (size_t k = 0; k < w->ranks->dim; k++) {
-        const double *log = w->ranks->axis[k].log;
+    for (size_t k = 0; k < w->ranks->axes; k++) {
+        const double *place = w->ranks->axis[k].place;
         size_t count = c->end[k] - c->begin[k];
+        double range = place[c->high[k]] - place[c->low[k]];
         double weight = ((double)w->pillars[k] + 0.1 * (double)count) *
-                        (log[c->high[k]] - log[c->low[k]]);
+                        (w->ranks->measure->anchored ? range : 1.0);
 
         if (c->low[k] == c->high[k] || weight <= best) continue;
         best = weight;
@@ -109,8 +110,8 @@ static bool enter_part(ki_worker *w, size_t depth)
 {
     ki_cell *whole = &w->cell[depth];
 
-    memcpy(w->new_low, whole->low, w->ranks->dim * sizeof *whole->low);
-    memcpy(w->new_high, whole->high, w->ranks->dim * sizeof *whole->high);
+    memcpy(w->new_low, whole->low, w->ranks->axes * sizeof *whole->low);
+    memcpy(w->new_high, whole->high, w->ranks->axes * sizeof *whole->high);
     if (whole->parts++ == 0)
         w->new_low[whole->split] = whole->middle;
     else
@@ -120,7 +121,7 @@ static bool enter_part(ki_worker *w, size_t depth)
 
 static bool add_task(ki_tasks *tasks, const ki_worker *w, const ki_cell *c)
 {
-    size_t dim = w->ranks->dim, size = 2 * dim + 1;
+    size_t axes = w->ranks->axes, size = 2 * axes + 1;
     uint32_t *to;
 
     if (ki_grow((void **)&tasks->number, &tasks->room, (tasks->count + 1) * size,
@@ -129,8 +130,8 @@ static bool add_task(ki_tasks *tasks, const ki_worker *w, const ki_cell *c)
     tasks->most = fmax(tasks->most, c->bound);
     to = tasks->number + tasks->count++ * size;
     *to++ = w->ranks->closed;
-    memcpy(to, c->low, dim * sizeof *to);
-    memcpy(to + dim, c->high, dim * sizeof *to);
+    memcpy(to, c->low, axes * sizeof *to);
+    memcpy(to + axes, c->high, axes * sizeof *to);
     return true;
 }
 
@@ -151,8 +152,8 @@ void ki_dive(ki_worker *w, const uint32_t *low, const uint32_t *high, double mos
     size_t depth =
         0; /* of the cell whose parts are visited; 0: none, but the root */
 
-    memcpy(w->new_low, low, w->ranks->dim * sizeof *low);
-    memcpy(w->new_high, high, w->ranks->dim * sizeof *high);
+    memcpy(w->new_low, low, w->ranks->axes * sizeof *low);
+    memcpy(w->new_high, high, w->ranks->axes * sizeof *high);
     if (!enter(w, 0)) return;
     do {
         if (open_up(w, depth + 1, most, tasks))

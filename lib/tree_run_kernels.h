@@ -1,14 +1,26 @@
-#ifndef KI_STAR_RUN_KERNELS_H
-#define KI_STAR_RUN_KERNELS_H
+#ifndef KI_TREE_RUN_KERNELS_H
+#define KI_TREE_RUN_KERNELS_H
 
 #include "part.h"
-#include "star_kernels.h"
+#include "tree_best_kernels.h"
+
+/* What the searches need to know of the options of a measure; star.h and box.h say
+ * what they mean. */
+typedef struct ki_run_opts {
+    double tolerance;
+    bool anytime;
+    size_t threads, part, parts;
+    double work;
+    uint64_t seed;
+    koksma_progress *progress;
+    void *state;
+} ki_run_opts;
 
 /* Private: what the threads of a search share, whichever cells it is made of.  The
  * team's lock guards what changes, the incumbent included; the team's peak is what
  * the incumbent has proven. */
 typedef struct ki_run {
-    const koksma_star_opts *opts;
+    ki_run_opts opts;
     ki_team *team;
     ki_best *best;
     double factor; /* boxes below factor * peak are of no interest; 1: exact */
@@ -17,7 +29,7 @@ typedef struct ki_run {
     bool no_memory;
 } ki_run;
 
-koksma_status ki_run_begin(ki_run *r, ki_best *b, const koksma_star_opts *opts);
+koksma_status ki_run_begin(ki_run *r, ki_best *b, const ki_run_opts *opts);
 void ki_run_end(ki_run *r);
 
 /* What a cell must be able to hold to be of interest. */

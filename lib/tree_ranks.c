@@ -2,7 +2,7 @@
 #include <stdlib.h>
 
 #include "error.h"
-#include "star_tree_kernels.h"
+#include "tree_kernels.h"
 
 /* The leading bits of the coordinates, interleaved [Morton 1966], as a number below
  * 1: points near each other mostly get places near each other. */
@@ -37,54 +37,75 @@ static void number_points(bench *w, koksma_points p)
         w->number[sorted[i].i] = (uint32_t)i;
 }
 
-/* Rank the coordinates along axis k. */
+/* Whether axis k is one of lower ends. */
+static bool is_lower(const ki_ranks *r, size_t k)
+{
+    return r->axes > r->dim && k < r->dim;
+}
+
+static double place_of(const ki_ranks *r, size_t k, double value)
+{
+    if (r->measure->anchored) return log(value);
+    return is_lower(r, k) ? -value : value;
+}
+
+/* Rank the coordinates along axis k.  In a star's closed boxes, a side of length 0
+ * has rank 0; elsewhere nothing has, so no coordinate equals its value. */
 static void rank_axis(ki_ranks *r, koksma_points p, size_t k, bench *w)
 {
-    const ki_keyed *sorted = ki_sort_axis(p, k, w->a, w->b);
+    const ki_keyed *sorted = ki_sort_axis(p, k % p.dim, w->a, w->b);
     ki_axis *axis = &r->axis[k];
+    double face = is_lower(r, k) ? 0.0 : 1.0;
     uint32_t top = 0;
 
-    axis->value[0] = 0.0;
+    axis->value[0] = r->measure->anchored ? 0.0 : -1.0;
     for (size_t j = 0; j < p.n; j++) {
-        if (sorted[j].x != axis->value[top]) axis->value[++top] = sorted[j].x;
-        r->order[k * p.n + j] = w->number[sorted[j].i];
+        ki_keyed s = sorted[is_lower(r, k) ? p.n - 1 - j : j];
+
+        if (s.x != axis->value[top]) axis->value[++top] = s.x;
+        r->order[k * p.n + j] = w->number[s.i];
         r->rank[k * p.n + r->order[k * p.n + j]] = top;
     }
-    if (!r->closed && axis->value[top] < 1.0) axis->value[++top] = 1.0;
+    if (!r->closed && axis->value[top] != face) axis->value[++top] = face;
     for (uint32_t j = 1; j <= top; j++)
-        axis->log[j] = log(axis->value[j]);
-    axis->log[0] = -HUGE_VAL;
+        axis->place[j] = place_of(r, k, axis->value[j]);
+    axis->place[0] = -HUGE_VAL;
     axis->top = top;
 }
 
-/* An axis takes values and logarithms of n + 2 ranks, ranks and an order. */
+/* An axis takes values and places of n + 2 ranks, ranks and an order. */
 static void fill(ki_ranks *r, koksma_points p, bench *w)
 {
     double *value;
 
     r->axis = r->memory;
-    value = (double *)(r->axis + p.dim);
-    r->rank = (uint32_t *)(value + p.dim * 2 * (p.n + 2));
-    r->order = r->rank + p.dim * p.n;
+    value = (double *)(r->axis + r->axes);
+    r->rank = (uint32_t *)(value + r->axes * 2 * (p.n + 2));
+    r->order = r->rank + r->axes * p.n;
     number_points(w, p);
-    for (size_t k = 0; k < p.dim; k++, value += 2 * (p.n + 2)) {
+    for (size_t k = 0; k < r->axes; k++, value += 2 * (p.n + 2)) {
         r->axis[k].value = value;
-        r->axis[k].log = value + p.n + 2;
+        r->axis[k].place = value + p.n + 2;
         rank_axis(r, p, k, w);
     }
 }
 
-koksma_status ki_ranks_make(ki_ranks *out, koksma_points p, bool closed)
+koksma_status ki_ranks_make(ki_ranks *out, koksma_points p, bool closed,
+                            const ki_measure *measure)
 {
     size_t doubles = 2 * (p.n + 2), words = 2 * p.n, bytes;
     bench w = {.place = ki_alloc(p.n, sizeof *w.place),
                .number = ki_alloc(p.n, sizeof *w.number),
                .a = ki_alloc(p.n, 2 * sizeof *w.a)};
     koksma_status status = KOKSMA_ENOMEM;
-    ki_ranks r = {
-        .n = p.n, .dim = p.dim, .closed = closed, .shift = closed ? 0 : 1};
+    ki_ranks r = {.measure = measure,
+                  .n = p.n,
+                  .dim = p.dim,
+                  .axes = measure->anchored ? p.dim : 2 * p.dim,
+                  .closed = closed,
+                  .shift = closed ? 0 : 1};
 
-    if (!__builtin_mul_overflow(p.dim,
+    if (!__builtin_mul_overflow(r.axes,
                                 doubles * sizeof(double) +
                                     words * sizeof(uint32_t) + sizeof(ki_axis),
                                 &bytes))

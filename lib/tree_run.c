@@ -1,10 +1,10 @@
 #include <math.h>
 
-#include "star_run_kernels.h"
+#include "tree_run_kernels.h"
 
-koksma_status ki_run_begin(ki_run *r, ki_best *b, const koksma_star_opts *opts)
+koksma_status ki_run_begin(ki_run *r, ki_best *b, const ki_run_opts *opts)
 {
-    *r = (ki_run){.opts = opts, .best = b, .factor = 1.0, .upper = 1.0};
+    *r = (ki_run){.opts = *opts, .best = b, .factor = 1.0, .upper = 1.0};
     r->team = ki_team_open(opts->threads);
     if (r->team == NULL) return KOKSMA_ENOMEM;
     ki_team_raise(r->team, b->proven);
@@ -18,7 +18,7 @@ double ki_run_target(const ki_run *r) { return r->factor * ki_team_peak(r->team)
 /* With the lock held. */
 static void report(ki_run *r, double work)
 {
-    const koksma_star_opts *opts = r->opts;
+    const ki_run_opts *opts = &r->opts;
 
     r->work += work;
     if (ki_team_stopped(r->team)) return; /* the caller has had his say */
@@ -76,9 +76,9 @@ static void run_stage(ki_run *r, double factor, ki_run_stage *stage, void *state
 void ki_run_stages(ki_run *r, ki_run_stage *stage, void *state)
 {
     static const double stages[] = {1.0, 0.5, 0.25, 0.1, 0.05};
-    double tolerance = r->opts->tolerance;
+    double tolerance = r->opts.tolerance;
 
-    if (r->opts->anytime && r->opts->parts <= 1)
+    if (r->opts.anytime && r->opts.parts <= 1)
         for (size_t i = 0; i < sizeof stages / sizeof stages[0]; i++)
             if (stages[i] > tolerance) run_stage(r, 1.0 + stages[i], stage, state);
     run_stage(r, 1.0 + tolerance, stage, state);

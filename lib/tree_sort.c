@@ -1,6 +1,6 @@
 #include <string.h>
 
-#include "star_kernels.h"
+#include "tree_best_kernels.h"
 
 /* Two ways to sort.  Most points are spread out: the leading bits of the coordinate
  * as a fixed-point number nearly sort them, and insertion does the rest.  Where
