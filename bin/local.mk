@@ -1,7 +1,8 @@
 # The tools are installed as koksma-<tool>, one file each over cli.
 noinst_LTLIBRARIES += %D%/libcli.la
 %C%_libcli_la_SOURCES = %D%/cli.h %D%/cli.c %D%/cli_input.c %D%/cli_prefixes.c \
-  %D%/cli_watch.c %D%/cli_integrand.h %D%/cli_integrand.c
+  %D%/cli_search.h %D%/cli_search.c %D%/cli_watch.c %D%/cli_integrand.h \
+  %D%/cli_integrand.c
 tool_libs = %D%/libcli.la lib/libkoksma.la
 
 bin_PROGRAMS += \

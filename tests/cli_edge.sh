@@ -27,6 +27,8 @@ t prefixes 0 "" "" '
     for n in 7 10 20 40 80 160 300; do grep -v "#" few | head -n $n | koksma-edge -q; done |
         diff prefixes -'
 t tolerance 0 "1" "" 'koksma-edge -q -m tree -e 0.5 few | awk "{ print \$4 <= 1.5001 * \$3 }"'
+t trace 0 "" "" 'koksma-edge -q few >whole; koksma-edge --trace few | tail -n 1 |
+    cut -f 3,4 >last; cut -f 3,4 whole | cmp - last'
 t nothing-odd 0 "" "" 'koksma-edge -q few >1; koksma-edge -q -p few >2; cmp 1 2'
 has why-sweep 0 'sweep (few points)' 'echo .5 .5 | koksma-edge -v'
 has why-tree 0 'tree (many points)' 'koksma-edge -v few'
@@ -39,6 +41,8 @@ t three 1 "" 'koksma-edge: standard input: half-planes take 2 coordinates, not 3
 t outside 1 "" 'koksma-edge: line 2: coordinate 1 is 2, not in [0,1]' \
     'printf "0 0\n2 0\n" | koksma-edge'
 has method 2 '^koksma-edge: -m takes auto, sweep or tree, not "best"$' 'koksma-edge -m best few'
+has trace-witness 2 '^koksma-edge: --trace has no room for a witness$' \
+    'koksma-edge --trace -w few'
 has tolerance-word 2 '^koksma-edge: -e takes ' 'koksma-edge -e much few'
 [ ! -w /dev/full ] || t full-disk 1 "" \
     'koksma-edge: standard output: cannot write: No space left on device' \
