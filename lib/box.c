@@ -79,32 +79,6 @@ static koksma_status choose(koksma_box_method *method, ki_best *b,
     return status;
 }
 
-static koksma_status check_opts(const koksma_box_opts *opts, koksma_points p,
-                                koksma_error *err)
-{
-    if (opts->method < KOKSMA_BOX_AUTO || opts->method > KOKSMA_BOX_SEARCH)
-        return ki_fail(err, KOKSMA_EINVAL, 0, "there is no method %d",
-                       (int)opts->method);
-    if (!(opts->work >= 0.0))
-        return ki_fail(err, KOKSMA_EINVAL, 0, "the work to stop after is %g steps",
-                       opts->work);
-    if (!(opts->tolerance >= 0.0))
-        return ki_fail(err, KOKSMA_EINVAL, 0, "the tolerance is %g",
-                       opts->tolerance);
-    if (opts->parts > 1 && (opts->part < 1 || opts->part > opts->parts))
-        return ki_fail(err, KOKSMA_EINVAL, 0, "there is no part %zu of %zu",
-                       opts->part, opts->parts);
-    if (opts->parts > 1 && opts->method == KOKSMA_BOX_SEARCH)
-        return ki_fail(err, KOKSMA_EINVAL, 0,
-                       "the search cannot be cut into parts");
-    if (p.n >= (size_t)1 << 31)
-        return ki_fail(err, KOKSMA_EINVAL, 0, "%zu points: 2^31 are too many", p.n);
-    if (opts->method == KOKSMA_BOX_SWEEP && p.dim > 2)
-        return ki_fail(err, KOKSMA_EINVAL, 0,
-                       "the sweep takes 1 or 2 coordinates, not %zu", p.dim);
-    return KOKSMA_OK;
-}
-
 static ki_run_opts run_opts(const koksma_box_opts *opts)
 {
     return (ki_run_opts){.tolerance = opts->tolerance,
@@ -116,6 +90,21 @@ static ki_run_opts run_opts(const koksma_box_opts *opts)
                          .seed = opts->seed,
                          .progress = opts->progress,
                          .state = opts->state};
+}
+
+static koksma_status check_opts(const koksma_box_opts *opts, koksma_points p,
+                                koksma_error *err)
+{
+    if (opts->method < KOKSMA_BOX_AUTO || opts->method > KOKSMA_BOX_SEARCH)
+        return ki_fail(err, KOKSMA_EINVAL, 0, "there is no method %d",
+                       (int)opts->method);
+    if (opts->parts > 1 && opts->method == KOKSMA_BOX_SEARCH)
+        return ki_fail(err, KOKSMA_EINVAL, 0,
+                       "the search cannot be cut into parts");
+    if (opts->method == KOKSMA_BOX_SWEEP && p.dim > 2)
+        return ki_fail(err, KOKSMA_EINVAL, 0,
+                       "the sweep takes 1 or 2 coordinates, not %zu", p.dim);
+    return ki_run_opts_check(run_opts(opts), p.n, err);
 }
 
 koksma_status koksma_box_discrepancy(koksma_box_result *out, koksma_points p,

@@ -52,25 +52,14 @@ static koksma_status check_opts(const koksma_star_opts *opts, koksma_points p,
     if (opts->method < KOKSMA_STAR_AUTO || opts->method > KOKSMA_STAR_SEARCH)
         return ki_fail(err, KOKSMA_EINVAL, 0, "there is no method %d",
                        (int)opts->method);
-    if (!(opts->work >= 0.0))
-        return ki_fail(err, KOKSMA_EINVAL, 0, "the work to stop after is %g steps",
-                       opts->work);
-    if (!(opts->tolerance >= 0.0))
-        return ki_fail(err, KOKSMA_EINVAL, 0, "the tolerance is %g",
-                       opts->tolerance);
-    if (opts->parts > 1 && (opts->part < 1 || opts->part > opts->parts))
-        return ki_fail(err, KOKSMA_EINVAL, 0, "there is no part %zu of %zu",
-                       opts->part, opts->parts);
     if (opts->parts > 1 && opts->method != KOKSMA_STAR_AUTO &&
         opts->method != KOKSMA_STAR_TREE && opts->method != KOKSMA_STAR_LINES)
         return ki_fail(err, KOKSMA_EINVAL, 0,
                        "only the tree and the lines are cut into parts");
-    if (p.n >= (size_t)1 << 31)
-        return ki_fail(err, KOKSMA_EINVAL, 0, "%zu points: 2^31 are too many", p.n);
     if (opts->method == KOKSMA_STAR_LINES && p.dim != 2 && p.dim != 3)
         return ki_fail(err, KOKSMA_EINVAL, 0,
                        "filtered lines take 2 or 3 coordinates, not %zu", p.dim);
-    return KOKSMA_OK;
+    return ki_run_opts_check(ki_star_run_opts(opts), p.n, err);
 }
 
 koksma_status koksma_star(koksma_star_result *out, koksma_points p,

@@ -1,6 +1,23 @@
 #include <math.h>
 
+#include "error.h"
 #include "tree_run_kernels.h"
+
+koksma_status ki_run_opts_check(ki_run_opts opts, size_t n, koksma_error *err)
+{
+    if (!(opts.work >= 0.0))
+        return ki_fail(err, KOKSMA_EINVAL, 0, "the work to stop after is %g steps",
+                       opts.work);
+    if (!(opts.tolerance >= 0.0))
+        return ki_fail(err, KOKSMA_EINVAL, 0, "the tolerance is %g",
+                       opts.tolerance);
+    if (opts.parts > 1 && (opts.part < 1 || opts.part > opts.parts))
+        return ki_fail(err, KOKSMA_EINVAL, 0, "there is no part %zu of %zu",
+                       opts.part, opts.parts);
+    if (n >= (size_t)1 << 31)
+        return ki_fail(err, KOKSMA_EINVAL, 0, "%zu points: 2^31 are too many", n);
+    return KOKSMA_OK;
+}
 
 koksma_status ki_run_begin(ki_run *r, ki_best *b, const ki_run_opts *opts)
 {

@@ -16,6 +16,9 @@ typedef struct ki_run_opts {
     void *state;
 } ki_run_opts;
 
+/* Whether they are in range, for n points. */
+koksma_status ki_run_opts_check(ki_run_opts opts, size_t n, koksma_error *err);
+
 /* Private: what the threads of a search share, whichever cells it is made of.  The
  * team's lock guards what changes, the incumbent included; the team's peak is what
  * the incumbent has proven. */
