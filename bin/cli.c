@@ -20,8 +20,7 @@ static const cli_option common[] = {
 
 enum { OPTIONS_MOST = 32 };
 
-/* ---- Messages
- * ---------------------------------------------------------------------- */
+/* ---- Messages ---------------------------------------------------------------- */
 
 static void message(const char *format, va_list args)
 {
@@ -87,8 +86,7 @@ _Noreturn void cli_finish(int status)
     exit(status);
 }
 
-/* ---- Options
- * ----------------------------------------------------------------------- */
+/* ---- Options ----------------------------------------------------------------- */
 
 static void print_options(const cli_option *o)
 {
@@ -158,8 +156,7 @@ int cli_next(const cli_tool *tool, int argc, char *argv[])
 
 bool cli_quiet(void) { return quiet; }
 
-/* ---- Numbers
- * ----------------------------------------------------------------------- */
+/* ---- Numbers ----------------------------------------------------------------- */
 
 static bool read_count(const char *text, uint64_t *value)
 {

@@ -67,8 +67,7 @@ void cli_flush(void);
 /* The same, and leave with status. */
 _Noreturn void cli_finish(int status);
 
-/* ---- Inputs: the FILEs of the command line, or standard input
- * -------------------- */
+/* ---- Inputs: the FILEs of the command line, or standard input ---------------- */
 
 typedef struct cli_input {
     char **files; /* ended by NULL */
@@ -108,8 +107,7 @@ bool cli_each_prefix(const cli_input *input, const koksma_set *set,
 /* Exit 1 with err, naming file and line. */
 _Noreturn void cli_fail_input(const cli_input *input, const koksma_error *err);
 
-/* ---- Watching long jobs
- * ------------------------------------------------------------ */
+/* ---- Watching long jobs ------------------------------------------------------ */
 
 typedef struct cli_watch {
     double seconds; /* stop after so many; 0: never */

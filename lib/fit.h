@@ -76,12 +76,11 @@ typedef enum koksma_fit_shape {
 } koksma_fit_shape;
 
 typedef struct koksma_fit_result {
-    koksma_fit_model model;   /* never KOKSMA_FIT_AUTO */
-    koksma_fit_term exponent; /* s of that model */
-    double constant;          /* C: rms, or its first term, is about C N^s */
-    koksma_fit_term slope;    /* s of one power, whatever the model */
-    koksma_fit_term
-        curvature; /* q of ln rms = c + s u + q u^2, u = ln N centred: 0
+    koksma_fit_model model;    /* never KOKSMA_FIT_AUTO */
+    koksma_fit_term exponent;  /* s of that model */
+    double constant;           /* C: rms, or its first term, is about C N^s */
+    koksma_fit_term slope;     /* s of one power, whatever the model */
+    koksma_fit_term curvature; /* q of ln rms = c + s u + q u^2, u = ln N centred: 0
                     * for a power law; negative when the fall steepens */
     koksma_fit_shape shape;
     koksma_fit_term log_power; /* k; NaN when an N is below 3 */

@@ -95,9 +95,10 @@ typedef struct koksma_l2_opts {
  *          koksma_points_check, and for options out of range; KOKSMA_ENOMEM
  * Cost:    pairs: dim n^2, memory n*dim; divide: n (log n)^(dim-1), and for
  *          symmetric, periodic, wraparound and mixture also n (log n)^(m-1) for
- * each choice of m coordinates, times 2^(dim-m) or 3^(dim-m); memory n*dim times
- * the threads Source:  pairs: [Warnock 1972]; divide: after [Heinrich 1996], who
- * cuts along one axis after the other; lib/l2_divide.c proves it */
+ *          each choice of m coordinates, times 2^(dim-m) or 3^(dim-m); memory
+ *          n*dim times the threads
+ * Source:  pairs: [Warnock 1972]; divide: after [Heinrich 1996], who cuts along
+ *          one axis after the other; lib/l2_divide.c proves it */
 koksma_status koksma_l2(koksma_l2_result *out, koksma_points p,
                         const koksma_l2_opts *opts, koksma_error *err);
 

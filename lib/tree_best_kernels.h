@@ -33,9 +33,9 @@ typedef struct ki_best {
     koksma_interval value;
     ki_witness witness;
     ki_twofold excess; /* n times its local discrepancy */
-    double
-        proven; /* the greatest value.lower so far: the discrepancy is not below it,
-                 * though a box that may tie can widen value by an ulp later on */
+    /* The greatest value.lower so far: the discrepancy is not below it, though a box
+     * that may tie can widen value by an ulp later on. */
+    double proven;
     double slack;
     double bar; /* value.lower - slack */
 } ki_best;

@@ -399,8 +399,7 @@ START_TEST(search_finds_boxes_that_are_there)
 }
 END_TEST
 
-/* ---- Sets where E is known
- * -------------------------------------------------------- */
+/* ---- Sets where E is known --------------------------------------------------- */
 
 static void check_known(const double *x, size_t n, size_t dim, double value)
 {

@@ -333,8 +333,7 @@ END_TEST
 static const struct source {
     const char *family;
     size_t n;
-    double
-        levels; /* > 0: moved to a grid of so many steps; -1, -2, -3, -4:
+    double levels; /* > 0: moved to a grid of so many steps; -1, -2, -3, -4:
                  * crowded at the left, at the bottom, at the right, at the top */
 } sources[] =
     {

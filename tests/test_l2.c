@@ -463,8 +463,7 @@ START_TEST(midpoints)
 }
 END_TEST
 
-/* ---- The ends of the range
- * ------------------------------------------------------- */
+/* ---- The ends of the range --------------------------------------------------- */
 
 /* k, h and c as the header has them, in long doubles. */
 static long double naive_k(koksma_l2_kind kind, long double x, long double y)
