@@ -21,9 +21,11 @@ static const cli_option options[] = {
     {'m', "method", "METHOD", "auto, grid, boundary or random (default auto)"},
     {SAMPLES, "samples", "N", "values for a grid of random cells (default 2^22)"},
     {'s', "seed", "SEED", "of the random cells (default 1)"},
+    {'t', "time", "SECONDS", "stop then, with the grids that are done"},
     {FACES, "faces", NULL, "a row for every face"},
     {LEVELS, "levels", NULL, "a row for every grid"},
     {EXPLAIN, "explain", NULL, "write a paragraph for a person instead"},
+    {'p', "progress", NULL, "a live line on standard error"},
     {'v', "verbose", NULL, "say on standard error what was done"},
     {0},
 };
@@ -39,6 +41,7 @@ typedef struct variation_options {
     koksma_variation_opts opts;
     const char *command;
     variation_form form;
+    cli_watch watch;
     bool verbose;
 } variation_options;
 
@@ -66,32 +69,56 @@ static void report(const variation_options *o, variation_report *r)
     free(r->faces);
 }
 
+/* What a search that can be stopped has left; there may be no grid yet, and no faces
+ * before the last one. */
+static bool report_finished(const variation_options *o, variation_report *r,
+                            bool finished)
+{
+    if (!finished)
+        cli_note("stopped; the finest grid that is done has %zu cells an axis",
+                 r->result.levels > 0 ? r->result.level[r->result.levels - 1].cells
+                                      : 0);
+    if (finished || (r->result.levels > 0 && o->form != VARIATION_FACES))
+        report(o, r);
+    else
+        free(r->faces);
+    return finished;
+}
+
 /* ---- Integrands and programs ------------------------------------------------- */
 
-static void measure_integrand(const variation_options *o)
+static bool measure_integrand(variation_options *o)
 {
     const cli_integrand *i = &o->integrand;
     variation_report r = {.integrand = i->row->name};
     koksma_integrand f;
     koksma_facts facts;
     koksma_error err;
+    koksma_status status;
 
     if (koksma_integrand_make(&f, &facts, i->row, i->dim, i->param, &err))
         cli_usage("%s", err.text);
     r.dim = f.dim;
     r.known = facts.variation;
     if (f.dim <= KOKSMA_VARIATION_DIM_MOST) r.faces = faces_for(f.dim);
-    if (koksma_variation(&r.result, r.faces, &f, &o->opts, &err)) cli_fail_as(&err);
-    report(o, &r);
+    cli_watch_start(&o->watch);
+    status = koksma_variation(&r.result, r.faces, &f, &o->opts, &err);
+    cli_watch_stop(&o->watch);
+    if (status != KOKSMA_OK && status != KOKSMA_STOPPED) cli_fail_as(&err);
+    return report_finished(o, &r, status == KOKSMA_OK);
 }
 
-static void measure_program(const variation_options *o)
+static bool measure_program(variation_options *o)
 {
     variation_report r = {.dim = o->integrand.dim, .known = (double)NAN};
+    bool finished;
 
     r.faces = faces_for(r.dim);
-    variation_run(&r.result, r.faces, o->command, r.dim, o->opts.cells);
-    report(o, &r);
+    cli_watch_start(&o->watch);
+    finished = variation_run(&r.result, r.faces, o->command, r.dim, o->opts.cells,
+                             &o->watch);
+    cli_watch_stop(&o->watch);
+    return report_finished(o, &r, finished);
 }
 
 /* ---- Values in files --------------------------------------------------------- */
@@ -182,9 +209,11 @@ static void read_options(variation_options *o, int argc, char *argv[])
                 (double)cli_count("--samples", optarg, 1000, (uint64_t)1 << 50);
             break;
         case 's': o->opts.seed = cli_count("-s", optarg, 0, UINT64_MAX); break;
+        case 't': o->watch.seconds = cli_real("-t", optarg, 1e-3, 1e9); break;
         case FACES: o->form = VARIATION_FACES; break;
         case LEVELS: o->form = VARIATION_LEVELS; break;
         case EXPLAIN: o->form = VARIATION_EXPLAIN; break;
+        case 'p': o->watch.show = true; break;
         case 'v': o->verbose = true; break;
         }
 }
@@ -192,7 +221,10 @@ static void read_options(variation_options *o, int argc, char *argv[])
 int main(int argc, char *argv[])
 {
     variation_options o = {.opts = KOKSMA_VARIATION_DEFAULTS};
+    bool finished = true;
 
+    o.opts.progress = cli_watch_progress;
+    o.opts.state = &o.watch;
     read_options(&o, argc, argv);
     if (o.command != NULL) {
         if (optind < argc) cli_usage("--run and %s: one at a time", argv[optind]);
@@ -202,12 +234,12 @@ int main(int argc, char *argv[])
                 "%zu axes have 2^%zu - 1 faces, and at most 2^%d - 1 are looked "
                 "at",
                 o.integrand.dim, o.integrand.dim, KOKSMA_VARIATION_DIM_MOST);
-        measure_program(&o);
+        finished = measure_program(&o);
     } else if (optind < argc && cli_integrand_exists(argv[optind])) {
         cli_integrand_choose(&o.integrand, argv[optind++]);
         if (optind < argc)
             cli_usage("one integrand at a time, not %s too", argv[optind]);
-        measure_integrand(&o);
+        finished = measure_integrand(&o);
     } else {
         if (o.integrand.dim + o.integrand.bounces + o.integrand.count > 0)
             cli_usage("-a, -d and --bounces are for integrands, and none is named");
@@ -216,5 +248,5 @@ int main(int argc, char *argv[])
 
         measure_files(&o, &input);
     }
-    cli_finish(CLI_DONE);
+    cli_finish(finished ? CLI_DONE : CLI_STOPPED);
 }

@@ -19,6 +19,8 @@ typedef struct run {
     const char *command;
     size_t dim, k;
     double nodes;
+    double value, values; /* V of the last grid that is done; how many were read */
+    cli_watch *watch;
     pid_t writer, program;
     FILE *in;
 } run;
@@ -81,22 +83,29 @@ static void start(run *r)
     if (r->in == NULL) cli_fail("not enough memory");
 }
 
-/* Wait for both; no sentence where the program was done before its output was read.
- */
-static void finish(run *r, bool done)
+/* Wait for both. */
+static void finish(run *r)
 {
     int status;
 
     fclose(r->in);
     waitpid(r->writer, NULL, 0);
     waitpid(r->program, &status, 0);
-    if (!done) return;
     if (WIFSIGNALED(status))
         cli_fail("the program was killed by signal %d at k = %zu", WTERMSIG(status),
                  r->k);
     if (WEXITSTATUS(status) != 0)
         cli_fail("the program left with status %d at k = %zu", WEXITSTATUS(status),
                  r->k);
+}
+
+static void abandon(run *r)
+{
+    kill(r->program, SIGTERM);
+    kill(r->writer, SIGTERM);
+    fclose(r->in);
+    waitpid(r->writer, NULL, 0);
+    waitpid(r->program, NULL, 0);
 }
 
 /* ---- What it prints ---------------------------------------------------------- */
@@ -121,8 +130,13 @@ static double read_value(const run *r, char *line, double number)
     return v;
 }
 
-/* Comments and blank lines are no values. */
-static void read_values(run *r, koksma_variation_grid *g)
+static bool told_to_stop(const run *r)
+{
+    return cli_watch_progress(r->watch, r->value, r->value, r->values) != 0;
+}
+
+/* Comments and blank lines are no values.  Returns whether all were read. */
+static bool read_values(run *r, koksma_variation_grid *g)
 {
     char *line = NULL;
     size_t room = 0;
@@ -133,25 +147,32 @@ static void read_values(run *r, koksma_variation_grid *g)
         double v;
 
         if (line[0] == '#' || line[strspn(line, " \t\r\n")] == '\0') continue;
-        if (++count > r->nodes) break;
+        r->values++;
+        if (++count > r->nodes || told_to_stop(r)) break;
         v = read_value(r, line, count);
         if (koksma_variation_add(g, &v, 1, &err)) cli_fail_as(&err);
     }
     free(line);
+    if (told_to_stop(r)) { /* an interrupt may have ended the program too */
+        abandon(r);
+        return false;
+    }
     if (count > r->nodes)
         cli_fail("the program printed more than %.0f values for as many points at "
                  "k = %zu",
                  r->nodes, r->k);
-    finish(r, true);
+    finish(r);
     if (count < r->nodes)
         cli_fail("the program printed %.0f values for %.0f points at k = %zu",
                  count, r->nodes, r->k);
+    return true;
 }
 
 /* ---- Rounds ------------------------------------------------------------------ */
 
-static void one_round(koksma_variation_result *out, koksma_estimate *faces, run *r)
+static bool one_round(koksma_variation_result *out, koksma_estimate *faces, run *r)
 {
+    bool done;
     size_t nodes[KOKSMA_VARIATION_DIM_MOST];
     koksma_variation_grid *g;
     koksma_error err;
@@ -160,9 +181,11 @@ static void one_round(koksma_variation_result *out, koksma_estimate *faces, run 
         nodes[j] = r->k + 1;
     if (koksma_variation_open(&g, nodes, r->dim, &err)) cli_fail_as(&err);
     start(r);
-    read_values(r, g);
-    if (koksma_variation_finish(out, faces, g, &err)) cli_fail_as(&err);
+    done = read_values(r, g);
+    if (done && koksma_variation_finish(out, faces, g, &err)) cli_fail_as(&err);
     koksma_variation_close(g);
+    if (done) r->value = out->level[out->levels - 1].value.value;
+    return done;
 }
 
 static double nodes_of(size_t k, size_t dim)
@@ -170,10 +193,10 @@ static double nodes_of(size_t k, size_t dim)
     return pow((double)k + 1.0, (double)dim);
 }
 
-void variation_run(koksma_variation_result *out, koksma_estimate *faces,
-                   const char *command, size_t dim, size_t cells)
+bool variation_run(koksma_variation_result *out, koksma_estimate *faces,
+                   const char *command, size_t dim, size_t cells, cli_watch *watch)
 {
-    run r = {.command = command, .dim = dim};
+    run r = {.command = command, .dim = dim, .watch = watch};
     double most = cells > 0 ? NODES_MOST : NODES_USUAL;
     size_t first = cells == 2 || nodes_of(4, dim) > most ? 2 : 4;
 
@@ -183,7 +206,8 @@ void variation_run(koksma_variation_result *out, koksma_estimate *faces,
                  cells > 0 ? cells : 2, dim, nodes_of(cells > 0 ? cells : 2, dim));
     for (r.k = first; r.k == first || nodes_of(r.k, dim) <= most; r.k *= 2) {
         r.nodes = nodes_of(r.k, dim);
-        one_round(out, faces, &r);
-        if (out->trend == KOKSMA_TREND_CONVERGED || r.k == cells) return;
+        if (!one_round(out, faces, &r)) return false;
+        if (out->trend == KOKSMA_TREND_CONVERGED || r.k == cells) break;
     }
+    return true;
 }

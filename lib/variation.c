@@ -105,11 +105,18 @@ koksma_status ki_variation_too_large(koksma_error *err)
                    "differences of the values leave the range of a double");
 }
 
+koksma_status ki_variation_stopped(const ki_variation_watch *w, koksma_error *err)
+{
+    return ki_fail(err, KOKSMA_STOPPED, 0,
+                   "stopped after %.3g values; the grids so far are done", w->work);
+}
+
 /* ---- Every node -------------------------------------------------------------- */
 
 /* Rows along the last axis, one after the other. */
 static koksma_status add_nodes(koksma_variation_grid *g, const koksma_integrand *f,
-                               double *row, size_t k, koksma_error *err)
+                               double *row, size_t k, ki_variation_watch *w,
+                               koksma_error *err)
 {
     size_t last = f->dim - 1, at[KOKSMA_VARIATION_DIM_MOST] = {0};
     double x[KOKSMA_VARIATION_DIM_MOST] = {0.0};
@@ -119,8 +126,10 @@ static koksma_status add_nodes(koksma_variation_grid *g, const koksma_integrand 
         koksma_status status;
 
         for (size_t i = 0; i <= k; i++) {
+            if (ki_variation_told_to_stop(w)) return ki_variation_stopped(w, err);
             x[last] = (double)i / (double)k;
             row[i] = f->value(f, x);
+            w->work++;
             if (!isfinite(row[i])) return ki_variation_bad_value(f, x, err);
         }
         status = koksma_variation_add(g, row, k + 1, err);
@@ -136,7 +145,7 @@ static koksma_status add_nodes(koksma_variation_grid *g, const koksma_integrand 
 
 koksma_status ki_variation_dense(koksma_variation_result *out,
                                  koksma_estimate *faces, const koksma_integrand *f,
-                                 size_t k, koksma_error *err)
+                                 size_t k, ki_variation_watch *w, koksma_error *err)
 {
     size_t nodes[KOKSMA_VARIATION_DIM_MOST];
     double *row = ki_alloc(k + 1, sizeof *row);
@@ -147,7 +156,7 @@ koksma_status ki_variation_dense(koksma_variation_result *out,
     for (size_t j = 0; j < f->dim; j++)
         nodes[j] = k + 1;
     status = koksma_variation_open(&g, nodes, f->dim, err);
-    if (status == KOKSMA_OK) status = add_nodes(g, f, row, k, err);
+    if (status == KOKSMA_OK) status = add_nodes(g, f, row, k, w, err);
     if (status == KOKSMA_OK) status = koksma_variation_finish(out, faces, g, err);
     koksma_variation_close(g);
     free(row);
@@ -211,36 +220,71 @@ static koksma_status check(const koksma_integrand *f,
     return KOKSMA_OK;
 }
 
+/* The level that comes next, and what to do with it. */
+static koksma_variation_level *next_level(koksma_variation_result *r)
+{
+    return &r->level[r->levels];
+}
+
+static void keep_level(koksma_variation_result *r, ki_variation_watch *w)
+{
+    w->value = r->level[r->levels++].value.value;
+}
+
 /* Grids of random cells, from `k` on. */
 static koksma_status add_random(koksma_variation_result *r, koksma_estimate *faces,
                                 const koksma_integrand *f, size_t k, size_t finest,
-                                const koksma_variation_opts *o, koksma_error *err)
+                                const koksma_variation_opts *o,
+                                ki_variation_watch *w, koksma_error *err)
 {
     double samples = o->samples > 0.0 ? o->samples : 0x1p22;
     koksma_status status = KOKSMA_OK;
 
-    for (; k <= finest && status == KOKSMA_OK; k *= 2)
-        status =
-            ki_variation_random(&r->level[r->levels++], k == finest ? faces : NULL,
-                                f, k, samples, o->seed, &r->work, err);
+    for (; k <= finest && status == KOKSMA_OK; k *= 2) {
+        status = ki_variation_random(next_level(r), k == finest ? faces : NULL, f,
+                                     k, samples, o->seed, w, err);
+        if (status == KOKSMA_OK) keep_level(r, w);
+    }
     return status;
 }
 
 static koksma_status add_trees(koksma_variation_result *r, koksma_estimate *faces,
                                const koksma_integrand *f, size_t finest,
-                               koksma_error *err)
+                               ki_variation_watch *w, koksma_error *err)
 {
     koksma_status status = KOKSMA_OK;
 
-    for (size_t k = 2; k <= finest && status == KOKSMA_OK; k *= 2)
-        status = ki_variation_tree(&r->level[r->levels++],
-                                   k == finest ? faces : NULL, f, k, &r->work, err);
+    for (size_t k = 2; k <= finest && status == KOKSMA_OK; k *= 2) {
+        status = ki_variation_tree(next_level(r), k == finest ? faces : NULL, f, k,
+                                   w, err);
+        if (status == KOKSMA_OK) keep_level(r, w);
+    }
+    return status;
+}
+
+/* All grids up to k come out of one pass; who may stop a long one gets some before,
+ * of k/4, k/16 and so on. */
+static koksma_status dense_grids(koksma_variation_result *r, koksma_estimate *faces,
+                                 const koksma_integrand *f, size_t k,
+                                 ki_variation_watch *w, koksma_error *err)
+{
+    koksma_status status = KOKSMA_OK;
+    size_t first = k;
+
+    while (w->progress != NULL && first >= 8 &&
+           pow((double)first + 1.0, (double)f->dim) > 0x1p16)
+        first /= 4;
+    for (; first <= k && status == KOKSMA_OK; first *= 4) {
+        status = ki_variation_dense(r, first == k ? faces : NULL, f, first, w, err);
+        if (status == KOKSMA_OK) w->value = r->level[r->levels - 1].value.value;
+    }
     return status;
 }
 
 static koksma_status measure(koksma_variation_result *r, koksma_estimate *faces,
                              const koksma_integrand *f,
-                             const koksma_variation_opts *o, koksma_error *err)
+                             const koksma_variation_opts *o, ki_variation_watch *w,
+                             koksma_error *err)
 {
     koksma_variation_method method = choose(f, o);
     double most = f->dim == 1 ? 0x1p16 : f->dim <= 4 ? 0x1p24 : 0x1p20;
@@ -250,18 +294,18 @@ static koksma_status measure(koksma_variation_result *r, koksma_estimate *faces,
 
     if (method == KOKSMA_VARIATION_BOUNDARY) {
         if (finest == 0) finest = side_of(f->dim > 1 ? f->dim - 1 : 1, 0x1p18);
-        return add_trees(r, faces, f, finest, err);
+        return add_trees(r, faces, f, finest, w, err);
     }
     if (finest == 0)
         finest = f->dim <= 4 || o->method == KOKSMA_VARIATION_GRID ? dense : 64;
     if (method == KOKSMA_VARIATION_RANDOM ||
         (o->method == KOKSMA_VARIATION_AUTO && f->dim > 4 &&
          pow((double)dense + 1.0, (double)f->dim) > 0x1p23))
-        return add_random(r, faces, f, 2, finest, o, err);
+        return add_random(r, faces, f, 2, finest, o, w, err);
     if (o->method == KOKSMA_VARIATION_GRID || dense > finest) dense = finest;
-    status = ki_variation_dense(r, dense == finest ? faces : NULL, f, dense, err);
+    status = dense_grids(r, dense == finest ? faces : NULL, f, dense, w, err);
     if (status != KOKSMA_OK) return status;
-    return add_random(r, faces, f, 2 * dense, finest, o, err);
+    return add_random(r, faces, f, 2 * dense, finest, o, w, err);
 }
 
 koksma_status koksma_variation(koksma_variation_result *out, koksma_estimate *faces,
@@ -270,12 +314,14 @@ koksma_status koksma_variation(koksma_variation_result *out, koksma_estimate *fa
 {
     static const koksma_variation_opts defaults = KOKSMA_VARIATION_DEFAULTS;
     const koksma_variation_opts *o = opts != NULL ? opts : &defaults;
+    ki_variation_watch watch = {.progress = o->progress, .state = o->state};
     koksma_variation_result r = {0};
     koksma_status status = check(f, o, err);
 
-    if (status == KOKSMA_OK) status = measure(&r, faces, f, o, err);
-    if (status != KOKSMA_OK) return status;
+    if (status == KOKSMA_OK) status = measure(&r, faces, f, o, &watch, err);
+    if (status != KOKSMA_OK && status != KOKSMA_STOPPED) return status;
     koksma_variation_judge(&r);
+    r.work = watch.work;
     *out = r;
-    return KOKSMA_OK;
+    return status;
 }

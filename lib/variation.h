@@ -60,7 +60,7 @@ typedef enum koksma_trend {
 
 typedef struct koksma_variation_result {
     koksma_variation_level level[KOKSMA_VARIATION_LEVELS_MOST];
-    size_t levels; /* >= 1; the last has the finest grid */
+    size_t levels; /* >= 1, unless stopped before; the last has the finest grid */
     koksma_trend trend;
     double rate; /* q; NaN where there is one grid, or V_k is 0 */
     double work; /* values of the function */
@@ -80,11 +80,17 @@ typedef struct koksma_variation_opts {
     size_t cells;   /* k of the finest grid, a power of 2; 0: by the method */
     double samples; /* of f, for a grid of random cells; 0: 2^22 */
     uint64_t seed;
+    /* Called every few thousand values, with V_k of the finest grid that is done, or
+     * 0, as both ends, and the values so far.  Where it is there, GRID takes some of
+     * the coarser grids before one of more than 2^16 nodes, to have something when it
+     * is stopped: at most a third more values.  NULL: never. */
+    koksma_progress *progress;
+    void *state; /* handed to progress */
 } koksma_variation_opts;
 
 #define KOKSMA_VARIATION_DEFAULTS                                                  \
     {                                                                              \
-        KOKSMA_VARIATION_AUTO, 0, 0.0, 1                                           \
+        KOKSMA_VARIATION_AUTO, 0, 0.0, 1, NULL, NULL                               \
     }
 
 /* The variation of f on grids of 2, 4, ..., k cells an axis.
@@ -105,8 +111,10 @@ typedef struct koksma_variation_opts {
  *
  * Out:     out
  *          faces  V(f; u) on the finest grid, at the number in which bit j says
- *                 that axis j is in u: room for 2^dim; NULL: not wanted
- * Returns: KOKSMA_OK; KOKSMA_EINVAL: dim is 0 or above
+ *                 that axis j is in u: room for 2^dim; NULL: not wanted; not
+ *                 filled when stopped
+ * Returns: KOKSMA_OK; KOKSMA_STOPPED when progress said so: out has the grids that
+ *          are done, and may have none; KOKSMA_EINVAL: dim is 0 or above
  *          KOKSMA_VARIATION_DIM_MOST, k is no power of 2 from 2 to 2^24, a grid
  *          of more than 2^40 nodes, BOUNDARY without a range; KOKSMA_EDOMAIN: a
  *          value that is not finite; KOKSMA_ENOMEM

@@ -24,7 +24,7 @@ typedef struct sampler {
     const koksma_integrand *f;
     size_t k;
     koksma_rng rng;
-    double work;
+    ki_variation_watch *watch;
     double x[KOKSMA_VARIATION_DIM_MOST];
     moments *faces; /* 2^dim, or NULL */
 } sampler;
@@ -70,7 +70,9 @@ static koksma_status draw(moments *m, sampler *s, size_t order, double count,
             s->x[j] = 1.0;
             low[j] = u >> j & 1 ? koksma_rng_below(&s->rng, s->k) : 0;
         }
-        d = ki_variation_cell(s->f, u, low, s->k, s->x, &s->work);
+        if (ki_variation_told_to_stop(s->watch))
+            return ki_variation_stopped(s->watch, err);
+        d = ki_variation_cell(s->f, u, low, s->k, s->x, &s->watch->work);
         if (!isfinite(d)) return ki_variation_bad_value(s->f, s->x, err);
         add(m, d);
         if (s->faces != NULL) add(&s->faces[u], d);
@@ -152,16 +154,17 @@ static koksma_status run(koksma_variation_level *out, sampler *s, double samples
         variance += cells * cells * variance_of_mean(&seen);
         rare = rare || seen.nonzero < NONZERO_LEAST;
     }
-    *out = (koksma_variation_level){s->k, estimate(value, variance, rare)};
+    if (status == KOKSMA_OK)
+        *out = (koksma_variation_level){s->k, estimate(value, variance, rare)};
     return status;
 }
 
 koksma_status ki_variation_random(koksma_variation_level *out,
                                   koksma_estimate *faces, const koksma_integrand *f,
                                   size_t k, double samples, uint64_t seed,
-                                  double *work, koksma_error *err)
+                                  ki_variation_watch *w, koksma_error *err)
 {
-    sampler s = {.f = f, .k = k, .rng = koksma_rng_seed(seed, k)};
+    sampler s = {.f = f, .k = k, .rng = koksma_rng_seed(seed, k), .watch = w};
     moments *sums = NULL;
     koksma_status status;
 
@@ -170,7 +173,6 @@ koksma_status ki_variation_random(koksma_variation_level *out,
         if (sums == NULL) return ki_fail_memory(err, "faces");
     }
     status = run(out, &s, samples, sums, err);
-    *work += s.work;
     if (status == KOKSMA_OK && faces != NULL) fill_faces(faces, &s);
     free(sums);
     return status;

@@ -23,7 +23,7 @@ typedef struct tree {
     unsigned u;
     block *stack; /* depth first: two for each halving of each axis */
     size_t depth;
-    double work;
+    ki_variation_watch *watch;
     double x[KOKSMA_VARIATION_DIM_MOST];
     size_t leaves;
     ki_sum sum;
@@ -40,7 +40,7 @@ static bool corners_agree(tree *t, const block *b, double v)
             if (t->u >> j & 1)
                 t->x[j] = (double)(corner >> j & 1 ? b->high[j] : b->low[j]) /
                           (double)t->k;
-        t->work++;
+        t->watch->work++;
         if (!(f->value(f, t->x) == v)) return false;
         if (corner == 0) return true;
         corner = (corner - 1) & t->u; /* the next smaller subset */
@@ -96,6 +96,8 @@ static koksma_status descend(tree *t, bool measure, koksma_error *err)
     while (used > 0) {
         block *b = &t->stack[used - 1];
 
+        if (ki_variation_told_to_stop(t->watch))
+            return ki_variation_stopped(t->watch, err);
         if (is_flat(t, b)) {
             used--;
         } else if (halve(t, b, &t->stack[used])) {
@@ -106,7 +108,7 @@ static koksma_status descend(tree *t, bool measure, koksma_error *err)
             t->leaves++;
             used--;
             if (!measure) continue;
-            d = ki_variation_cell(t->f, t->u, b->low, t->k, t->x, &t->work);
+            d = ki_variation_cell(t->f, t->u, b->low, t->k, t->x, &t->watch->work);
             if (!isfinite(d)) return ki_variation_bad_value(t->f, t->x, err);
             ki_sum_add(&t->sum, d);
         }
@@ -115,11 +117,12 @@ static koksma_status descend(tree *t, bool measure, koksma_error *err)
 }
 
 /* A box is halved log2 k times an axis, and each time one half waits. */
-static bool plant(tree *t, const koksma_integrand *f, size_t k)
+static bool plant(tree *t, const koksma_integrand *f, size_t k,
+                  ki_variation_watch *w)
 {
     size_t depth = 2;
 
-    *t = (tree){.f = f, .k = k};
+    *t = (tree){.f = f, .k = k, .watch = w};
     for (size_t cells = k; cells > 0; cells /= 2)
         depth += f->dim;
     t->stack = ki_alloc(depth, sizeof *t->stack);
@@ -127,14 +130,14 @@ static bool plant(tree *t, const koksma_integrand *f, size_t k)
 }
 
 koksma_status ki_variation_tree(koksma_variation_level *out, koksma_estimate *faces,
-                                const koksma_integrand *f, size_t k, double *work,
-                                koksma_error *err)
+                                const koksma_integrand *f, size_t k,
+                                ki_variation_watch *w, koksma_error *err)
 {
     koksma_status status = KOKSMA_OK;
     ki_sum sum = {0};
     tree t;
 
-    if (!plant(&t, f, k)) return ki_fail_memory(err, "boxes of cells");
+    if (!plant(&t, f, k, w)) return ki_fail_memory(err, "boxes of cells");
     if (faces != NULL) faces[0] = ki_variation_exact(0.0);
     for (t.u = 1; t.u < 1u << f->dim && status == KOKSMA_OK; t.u++) {
         t.sum = (ki_sum){0};
@@ -142,17 +145,18 @@ koksma_status ki_variation_tree(koksma_variation_level *out, koksma_estimate *fa
         ki_sum_add(&sum, ki_sum_value(t.sum));
         if (faces != NULL) faces[t.u] = ki_variation_exact(ki_sum_value(t.sum));
     }
-    *work += t.work;
     free(t.stack);
-    *out = (koksma_variation_level){k, ki_variation_exact(ki_sum_value(sum))};
+    if (status == KOKSMA_OK)
+        *out = (koksma_variation_level){k, ki_variation_exact(ki_sum_value(sum))};
     return status;
 }
 
 size_t ki_variation_tree_leaves(const koksma_integrand *f, size_t k)
 {
+    ki_variation_watch nobody = {0};
     tree t;
 
-    if (!plant(&t, f, k)) return SIZE_MAX;
+    if (!plant(&t, f, k, &nobody)) return SIZE_MAX;
     t.u = (1u << f->dim) - 1;
     (void)descend(&t, false, NULL);
     free(t.stack);

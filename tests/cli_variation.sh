@@ -104,6 +104,26 @@ bad array-nan 'bad.npy: the value at node (1, 1), counted from 0, is nan, not fi
      koksma-variation bad.npy'
 bad array-cut 'standard input: the .npy array is cut short' \
     'koksma-points halton -n 9 --npy | head -c 200 | koksma-variation'
+
+# ---- Stopped: what is printed are grids that are done --------------------------------
+
+cat >check_stopped <<'END'
+status=0; "$@" >row || status=$?
+grep -v "#" row | cut -f 2,3 >stopped
+read -r k v <stopped
+koksma-variation f2 -a 0 -m grid -q --cells "$k" | grep -v "#" | cut -f 2,3 | diff - stopped
+[ "$k" -lt 32768 ] && exit $status
+END
+has time 3 'stopped; the finest grid that is done has [0-9]* cells an axis' \
+    'sh -e ./check_stopped koksma-variation f2 -a 0 -m grid --cells 2^15 -t 0.3'
+has interrupt 3 'stopped; the finest grid that is done has [0-9]* cells an axis' \
+    'sh -e ./check_stopped timeout --preserve-status -s INT 0.3 koksma-variation f2 -a 0 \
+        -m grid --cells 2^15'
+has stopped-program 3 '^2	[0-9]*	[0-9]*	' \
+    "koksma-variation -d 2 --cells 4096 -t 1 --run 'awk \"{print (\\\$1 + \\\$2 < 1)}\"'"
+t stopped-faces 3 "" 'koksma-variation: stopped; the finest grid that is done has 128 cells an axis' \
+    'koksma-variation f2 -m grid --cells 2^15 -t 0.001 --faces'
+
 has cells 2 'takes a power of 2, not 12' 'koksma-variation f2 --cells 12'
 has run-needs-dim 2 'takes -d, the dimension' 'koksma-variation --run cat'
 has run-and-file 2 'one at a time' 'koksma-variation --run cat -d 2 f2'

@@ -300,7 +300,8 @@ static koksma_status grid_job(koksma_error *err)
 
 static koksma_status variation_by(koksma_variation_method method, koksma_error *err)
 {
-    koksma_variation_opts o = {method, 4, 1000.0, 1};
+    koksma_variation_opts o = {
+        .method = method, .cells = 4, .samples = 1000.0, .seed = 1};
     koksma_variation_result r;
     koksma_estimate faces[4];
     koksma_integrand f;

@@ -179,7 +179,7 @@ END_TEST
 static koksma_variation_result of(const koksma_integrand *f, koksma_estimate *faces,
                                   koksma_variation_method method, size_t cells)
 {
-    koksma_variation_opts o = {method, cells, 0.0, 1};
+    koksma_variation_opts o = {.method = method, .cells = cells, .seed = 1};
     koksma_variation_result r;
     koksma_error err;
 
@@ -372,8 +372,10 @@ START_TEST(intervals_of_random_cells)
         int held = 0;
 
         for (uint64_t seed = 0; seed < RUNS; seed++) {
-            koksma_variation_opts o = {KOKSMA_VARIATION_RANDOM, 16, 2000.0,
-                                       seed + 1000 * oracle_seed()};
+            koksma_variation_opts o = {.method = KOKSMA_VARIATION_RANDOM,
+                                       .cells = 16,
+                                       .samples = 2000.0,
+                                       .seed = seed + 1000 * oracle_seed()};
             koksma_variation_result r;
             koksma_estimate v;
 
@@ -400,7 +402,10 @@ START_TEST(rare_cells_have_no_interval)
 
     for (size_t i = 0; i < 2; i++) {
         koksma_integrand f = fixture_make(NULL, names[i], 4, NULL);
-        koksma_variation_opts o = {KOKSMA_VARIATION_RANDOM, 16, 10000.0, 1};
+        koksma_variation_opts o = {.method = KOKSMA_VARIATION_RANDOM,
+                                   .cells = 16,
+                                   .samples = 10000.0,
+                                   .seed = 1};
         koksma_variation_result r;
         koksma_estimate v;
 
@@ -425,7 +430,10 @@ START_TEST(few_cells_have_no_interval)
     int none = 0, met = 0;
 
     for (uint64_t seed = 0; seed < 20; seed++) {
-        koksma_variation_opts o = {KOKSMA_VARIATION_RANDOM, 32, 20000.0, seed};
+        koksma_variation_opts o = {.method = KOKSMA_VARIATION_RANDOM,
+                                   .cells = 32,
+                                   .samples = 20000.0,
+                                   .seed = seed};
         koksma_variation_result r;
         koksma_estimate v;
 
@@ -444,7 +452,10 @@ END_TEST
 START_TEST(faces_of_random_cells)
 {
     koksma_integrand f = fixture_make(NULL, "product", 5, NULL);
-    koksma_variation_opts o = {KOKSMA_VARIATION_RANDOM, 4, 200000.0, 3};
+    koksma_variation_opts o = {.method = KOKSMA_VARIATION_RANDOM,
+                               .cells = 4,
+                               .samples = 200000.0,
+                               .seed = 3};
     koksma_estimate faces[32];
     koksma_variation_result r;
 
@@ -468,6 +479,60 @@ START_TEST(many_axes)
     ck_assert_uint_eq(r.level[r.levels - 1].cells, 64);
     ck_assert_double_eq_tol(finest(&r), 63.0, 1e-9);
     ck_assert_int_eq(r.trend, KOKSMA_TREND_CONVERGED);
+}
+END_TEST
+
+/* ---- Stopping ---------------------------------------------------------------- */
+
+typedef struct patience {
+    int calls, most;
+    double value, work; /* as last told */
+} patience;
+
+static int lose_patience(void *state, double lower, double upper, double work)
+{
+    patience *p = state;
+
+    ck_assert(lower == upper && lower >= 0.0 && work > p->work);
+    p->value = lower;
+    p->work = work;
+    return ++p->calls >= p->most;
+}
+
+/* Whenever it is stopped, the grids that are done are those of the whole. */
+START_TEST(stopped_at_any_time)
+{
+    static const koksma_variation_opts ways[] = {
+        {.method = KOKSMA_VARIATION_GRID, .cells = 256},
+        {.method = KOKSMA_VARIATION_BOUNDARY, .cells = 4096},
+        {.method = KOKSMA_VARIATION_RANDOM, .cells = 64, .samples = 1e5},
+    };
+    koksma_variation_opts o = ways[_i];
+    koksma_integrand f = fixture_make(NULL, "f2", 2, NULL);
+    koksma_variation_result whole, r = {0};
+    koksma_status status = KOKSMA_STOPPED;
+    size_t some = 0;
+
+    ck_assert_int_eq(koksma_variation(&whole, NULL, &f, &o, NULL), KOKSMA_OK);
+    o.progress = lose_patience;
+    for (int most = 1; status == KOKSMA_STOPPED; most++) {
+        patience p = {.most = most};
+        koksma_error err = {0};
+
+        o.state = &p;
+        status = koksma_variation(&r, NULL, &f, &o, &err);
+        ck_assert_int_eq(p.calls, most - (status == KOKSMA_OK));
+        ck_assert_int_eq(err.status, status);
+        some += r.levels > 0 && r.levels < whole.levels;
+        for (size_t i = 0; i < r.levels; i++) {
+            ck_assert_uint_eq(r.level[i].cells, whole.level[i].cells);
+            ck_assert(r.level[i].value.value == whole.level[i].value.value);
+        }
+        if (status == KOKSMA_STOPPED)
+            ck_assert(p.value == (r.levels > 0 ? finest(&r) : 0.0));
+    }
+    ck_assert_uint_gt(some, 0);
+    ck_assert_uint_eq(r.levels, whole.levels);
 }
 END_TEST
 
@@ -702,7 +767,10 @@ START_TEST(integrands_that_are_none)
     koksma_integrand f = {.dim = 2, .value = pole};
     koksma_variation_result r;
     koksma_error err;
-    koksma_variation_opts o = {KOKSMA_VARIATION_RANDOM, 4, 10000.0, 1};
+    koksma_variation_opts o = {.method = KOKSMA_VARIATION_RANDOM,
+                               .cells = 4,
+                               .samples = 10000.0,
+                               .seed = 1};
 
     check_refused(koksma_variation(&r, NULL, &f, NULL, &err), KOKSMA_EDOMAIN, &err,
                   "the value at (0.5, 0) is inf, not finite");
@@ -719,10 +787,12 @@ START_TEST(integrands_that_are_none)
     o.cells = 12;
     check_refused(koksma_variation(&r, NULL, &f, &o, &err), KOKSMA_EINVAL, &err,
                   "12 cells an axis, which is no power of 2 from 2 to 2^24");
-    o = (koksma_variation_opts){KOKSMA_VARIATION_BOUNDARY, 4, 0.0, 1};
+    o = (koksma_variation_opts){
+        .method = KOKSMA_VARIATION_BOUNDARY, .cells = 4, .seed = 1};
     check_refused(koksma_variation(&r, NULL, &f, &o, &err), KOKSMA_EINVAL, &err,
                   "boundary cells take an integrand whose range is known");
-    o = (koksma_variation_opts){KOKSMA_VARIATION_GRID, 1 << 24, 0.0, 1};
+    o = (koksma_variation_opts){
+        .method = KOKSMA_VARIATION_GRID, .cells = 1 << 24, .seed = 1};
     check_refused(koksma_variation(&r, NULL, &f, &o, &err), KOKSMA_EINVAL, &err,
                   "16777216 cells on each of 2 axes have 2.81e+14 nodes: too many");
 }
@@ -746,6 +816,7 @@ int main(void)
     tcase_add_test(c, few_cells_have_no_interval);
     tcase_add_test(c, steps_at_a_node);
     tcase_add_test(c, many_axes);
+    tcase_add_loop_test(c, stopped_at_any_time, 0, 3);
     tcase_add_test(c, trends);
     tcase_add_test(c, ramps_and_kinks);
     tcase_add_test(c, rounding_counts_as_zero);
