@@ -175,7 +175,8 @@ static bool read_count(const char *text, uint64_t *value)
         uintmax_t exponent = strtoumax(end + 1, &end, 10), base = v;
 
         if (errno != 0 || *end != '\0') return false;
-        for (v = 1; exponent > 0 && base != 1; exponent--)
+        if (base < 2 && exponent > 1) exponent = 1; /* it is what it is */
+        for (v = 1; exponent > 0; exponent--)
             if (__builtin_mul_overflow(v, base, &v)) return false;
     } else if (*end == '.' || *end == 'e' || *end == 'E') {
         d = strtod(text, &end);
