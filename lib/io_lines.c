@@ -46,6 +46,8 @@ koksma_status ki_lines_next(ki_lines *l, bool *more, koksma_error *err)
     errno = 0;
     length = getline(&l->text, &l->room, l->in);
     *more = length >= 0;
+    /* Some systems' getline tells the stream, too, that memory is out. */
+    if (length < 0 && errno == ENOMEM) return ki_fail_memory(err, "a line");
     /* Also behind half a line: what came before the failure is no line. */
     if (ferror(l->in)) return ki_fail_read(err);
     if (length < 0) return feof(l->in) ? KOKSMA_OK : ki_fail_memory(err, "a line");

@@ -24,7 +24,7 @@ EXTRA_DIST += $(structure_scripts) %D%/cli_rows.sh %D%/replay.sh %D%/corpus
 if HAVE_CHECK
 check_LTLIBRARIES += %D%/liboracle.la
 %C%_liboracle_la_SOURCES = \
-  %D%/oracle.c %D%/oracle.h %D%/edge_fixture.h %D%/fit_fixture.h %D%/gen_fixture.h \
+  %D%/alloc_fixture.h %D%/oracle.c %D%/oracle.h %D%/edge_fixture.h %D%/fit_fixture.h %D%/gen_fixture.h \
   %D%/integrand_fixture.h %D%/io_fixture.h %D%/paths.h \
   %D%/npy_fixture.h
 
@@ -45,8 +45,11 @@ LDADD = %D%/liboracle.la lib/libcore.la $(CHECK_LIBS)
 
 
 if CAN_WRAP
-unit_tests += %D%/test_alloc
-%C%_test_alloc_LDFLAGS = -Wl,--wrap=malloc -Wl,--wrap=calloc -Wl,--wrap=realloc
+unit_tests += %D%/test_alloc %D%/test_alloc_data
+wrap_alloc = -Wl,--wrap=malloc -Wl,--wrap=calloc -Wl,--wrap=realloc \
+  -Wl,--wrap=strndup -Wl,--wrap=getline
+%C%_test_alloc_LDFLAGS      = $(wrap_alloc) -Wl,--wrap=pthread_create
+%C%_test_alloc_data_LDFLAGS = $(wrap_alloc)
 endif
 
 check_PROGRAMS += $(unit_tests)
