@@ -98,25 +98,37 @@ check-threads:
 
 # ---- Fuzzing: the targets are replayed over the corpus in make check -----------
 
-fuzz_targets    = points table
-check_PROGRAMS += %D%/replay_points %D%/replay_table
-%C%_replay_points_SOURCES = %D%/fuzz_points.c %D%/fuzz_main.c
-%C%_replay_points_LDADD   = lib/libcore.la
-%C%_replay_table_SOURCES  = %D%/fuzz_table.c %D%/fuzz_main.c
-%C%_replay_table_LDADD    = lib/libcore.la
+fuzz_targets    = points npy table grid options
+fuzz_headers    = %D%/fuzz_npy.h %D%/fuzz_sets.h %D%/io_fixture.h
+check_PROGRAMS += %D%/replay_grid %D%/replay_npy %D%/replay_options \
+  %D%/replay_points %D%/replay_table
+%C%_replay_grid_SOURCES    = %D%/fuzz_grid.c %D%/fuzz_main.c $(fuzz_headers)
+%C%_replay_grid_LDADD      = lib/libcore.la
+%C%_replay_npy_SOURCES     = %D%/fuzz_npy.c %D%/fuzz_main.c $(fuzz_headers)
+%C%_replay_npy_LDADD       = lib/libcore.la
+%C%_replay_options_SOURCES = %D%/fuzz_options.c %D%/fuzz_main.c
+%C%_replay_options_LDADD   = lib/libcore.la
+%C%_replay_points_SOURCES  = %D%/fuzz_points.c %D%/fuzz_main.c $(fuzz_headers)
+%C%_replay_points_LDADD    = lib/libcore.la
+%C%_replay_table_SOURCES   = %D%/fuzz_table.c %D%/fuzz_main.c
+%C%_replay_table_LDADD     = lib/libcore.la
 
 .PHONY: fuzz
 FUZZ_SECONDS = 30
-# Takes CC=clang, for its libFuzzer; what it finds new stays in fuzz/.
+FUZZ = $(CC) -g -O1 -ffp-contract=off $(DEFS) $(AM_CPPFLAGS) \
+  -I$(abs_top_srcdir)/lib -I$(abs_top_builddir)/lib -fsanitize=address,undefined
+# Takes CC=clang, for its libFuzzer; what it finds new stays in fuzz/.  The library
+# is compiled once; two targets run side by side.
 fuzz: $(BUILT_SOURCES)
-	for target in $(fuzz_targets); do \
-	  $(MKDIR_P) fuzz/$$target && \
-	  $(CC) -g -O1 -ffp-contract=off -fsanitize=fuzzer,address,undefined \
-	    $(DEFS) $(AM_CPPFLAGS) -Ilib $(top_srcdir)/tests/fuzz_$$target.c \
-	    $(top_srcdir)/lib/*.c -lm -o fuzz/fuzz_$$target && \
-	  fuzz/fuzz_$$target -max_total_time=$(FUZZ_SECONDS) -verbosity=0 \
-	    -print_final_stats=1 fuzz/$$target $(top_srcdir)/tests/corpus/$$target || exit 1; \
-	done
+	$(MKDIR_P) fuzz/lib
+	cd fuzz/lib && $(FUZZ) -fsanitize=fuzzer-no-link -c $(abs_top_srcdir)/lib/*.c
+	printf '%s\n' $(fuzz_targets) | xargs -P 2 -I TARGET sh -c \
+	  '$(MKDIR_P) fuzz/TARGET && \
+	  $(FUZZ) -fsanitize=fuzzer $(top_srcdir)/tests/fuzz_TARGET.c fuzz/lib/*.o -lm \
+	    -o fuzz/fuzz_TARGET && \
+	  fuzz/fuzz_TARGET -max_total_time=$(FUZZ_SECONDS) -verbosity=0 \
+	    -print_final_stats=1 -artifact_prefix=fuzz/TARGET- fuzz/TARGET \
+	    $(top_srcdir)/tests/corpus/TARGET || exit 255'
 
 clean-local: clean-fuzz
 .PHONY: clean-fuzz
