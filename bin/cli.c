@@ -76,8 +76,10 @@ _Noreturn void cli_fail_as(const koksma_error *err)
 void cli_flush(void)
 {
     errno = 0;
-    if (fflush(stdout) != 0 || ferror(stdout))
-        cli_fail("standard output: cannot write: %s", strerror(errno));
+    if (fflush(stdout) == 0 && !ferror(stdout)) return;
+    /* What failed may have been an earlier write, which left nothing to flush. */
+    cli_fail("standard output: cannot write%s%s", errno != 0 ? ": " : "",
+             errno != 0 ? strerror(errno) : "");
 }
 
 _Noreturn void cli_finish(int status)
@@ -172,7 +174,8 @@ static bool read_count(const char *text, uint64_t *value)
         uintmax_t exponent = strtoumax(end + 1, &end, 10), base = v;
 
         if (errno != 0 || *end != '\0') return false;
-        for (v = 1; exponent > 0 && base != 1; exponent--)
+        if (base < 2 && exponent > 1) exponent = 1; /* it is what it is */
+        for (v = 1; exponent > 0; exponent--)
             if (__builtin_mul_overflow(v, base, &v)) return false;
     } else if (*end == '.' || *end == 'e' || *end == 'E') {
         d = strtod(text, &end);

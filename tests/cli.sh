@@ -231,6 +231,9 @@ t family 2 "" "koksma-points: no family is called \"hilton\"; --list lists them$
 t number-tail 2 "" \
     "koksma-points: -n takes a whole number from 1 to 18446744073709551615, not \"10k\"$try" \
     'koksma-points halton -n 10k'
+has number-zero-power 2 'not "0^18446744073709551615"$' \
+    'koksma-points halton -n 0^18446744073709551615'
+t number-one-power 0 "0${tab}0" "" 'koksma-points halton -q -n 1^18446744073709551615'
 t no-grid 2 "" "koksma-points: 10 points make no grid in 2 dimensions: no m^2$try" \
     'koksma-points grid -n 10'
 t equal-replicates 2 "" \

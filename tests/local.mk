@@ -15,7 +15,7 @@ AM_TESTS_ENVIRONMENT = \
   PATH='$(abs_top_builddir)/bin':$$PATH; export PATH;
 
 structure_scripts = \
-  %D%/cli.sh %D%/cli_bound.sh %D%/cli_box.sh %D%/cli_cells.sh %D%/cli_edge.sh %D%/cli_plot.sh \
+  %D%/cli.sh %D%/cli_bound.sh %D%/cli_box.sh %D%/cli_cells.sh %D%/cli_edge.sh %D%/cli_faults.sh %D%/cli_plot.sh \
   %D%/cli_star.sh %D%/cli_variation.sh %D%/floors.sh %D%/headers.sh %D%/man.sh \
   %D%/names.sh \
   %D%/symbols.sh
@@ -27,7 +27,7 @@ EXTRA_DIST += $(structure_scripts) %D%/cli_rows.sh %D%/replay.sh %D%/corpus
 if HAVE_CHECK
 check_LTLIBRARIES += %D%/liboracle.la
 %C%_liboracle_la_SOURCES = \
-  %D%/oracle.c %D%/oracle.h %D%/edge_fixture.h %D%/fit_fixture.h %D%/gen_fixture.h \
+  %D%/alloc_fixture.h %D%/oracle.c %D%/oracle.h %D%/edge_fixture.h %D%/fit_fixture.h %D%/gen_fixture.h \
   %D%/integrand_fixture.h %D%/io_fixture.h %D%/paths.h \
   %D%/npy_fixture.h
 
@@ -39,7 +39,7 @@ unit_tests = \
   %D%/test_fractals %D%/test_gen %D%/test_gen_digits %D%/test_gen_scramble \
   %D%/test_gen_lattice %D%/test_gen_nets %D%/test_gen_patterns \
   %D%/test_integrand %D%/test_io %D%/test_io_npy %D%/test_io_npy_bad \
-  %D%/test_io_number %D%/test_io_reader %D%/test_io_table %D%/test_io_write \
+  %D%/test_io_faults %D%/test_io_number %D%/test_io_reader %D%/test_io_table %D%/test_io_write \
   %D%/test_known %D%/test_l2 %D%/test_num %D%/test_part %D%/test_points \
   %D%/test_rng %D%/test_scene %D%/test_shapes %D%/test_split %D%/test_star %D%/test_star_bound %D%/test_star_lines \
   %D%/test_star_methods %D%/test_star_search %D%/test_star_threads \
@@ -48,8 +48,11 @@ LDADD = %D%/liboracle.la lib/libcore.la $(CHECK_LIBS)
 
 
 if CAN_WRAP
-unit_tests += %D%/test_alloc
-%C%_test_alloc_LDFLAGS = -Wl,--wrap=malloc -Wl,--wrap=calloc -Wl,--wrap=realloc
+unit_tests += %D%/test_alloc %D%/test_alloc_data
+wrap_alloc = -Wl,--wrap=malloc -Wl,--wrap=calloc -Wl,--wrap=realloc \
+  -Wl,--wrap=strndup -Wl,--wrap=getline
+%C%_test_alloc_LDFLAGS      = $(wrap_alloc) -Wl,--wrap=pthread_create
+%C%_test_alloc_data_LDFLAGS = $(wrap_alloc)
 endif
 
 check_PROGRAMS += $(unit_tests)
@@ -98,25 +101,37 @@ check-threads:
 
 # ---- Fuzzing: the targets are replayed over the corpus in make check -----------
 
-fuzz_targets    = points table
-check_PROGRAMS += %D%/replay_points %D%/replay_table
-%C%_replay_points_SOURCES = %D%/fuzz_points.c %D%/fuzz_main.c
-%C%_replay_points_LDADD   = lib/libcore.la
-%C%_replay_table_SOURCES  = %D%/fuzz_table.c %D%/fuzz_main.c
-%C%_replay_table_LDADD    = lib/libcore.la
+fuzz_targets    = points npy table grid options
+fuzz_headers    = %D%/fuzz_npy.h %D%/fuzz_sets.h %D%/io_fixture.h
+check_PROGRAMS += %D%/replay_grid %D%/replay_npy %D%/replay_options \
+  %D%/replay_points %D%/replay_table
+%C%_replay_grid_SOURCES    = %D%/fuzz_grid.c %D%/fuzz_main.c $(fuzz_headers)
+%C%_replay_grid_LDADD      = lib/libcore.la
+%C%_replay_npy_SOURCES     = %D%/fuzz_npy.c %D%/fuzz_main.c $(fuzz_headers)
+%C%_replay_npy_LDADD       = lib/libcore.la
+%C%_replay_options_SOURCES = %D%/fuzz_options.c %D%/fuzz_main.c
+%C%_replay_options_LDADD   = lib/libcore.la
+%C%_replay_points_SOURCES  = %D%/fuzz_points.c %D%/fuzz_main.c $(fuzz_headers)
+%C%_replay_points_LDADD    = lib/libcore.la
+%C%_replay_table_SOURCES   = %D%/fuzz_table.c %D%/fuzz_main.c
+%C%_replay_table_LDADD     = lib/libcore.la
 
 .PHONY: fuzz
 FUZZ_SECONDS = 30
-# Takes CC=clang, for its libFuzzer; what it finds new stays in fuzz/.
+FUZZ = $(CC) -g -O1 -ffp-contract=off $(DEFS) $(AM_CPPFLAGS) \
+  -I$(abs_top_srcdir)/lib -I$(abs_top_builddir)/lib -fsanitize=address,undefined
+# Takes CC=clang, for its libFuzzer; what it finds new stays in fuzz/.  The library
+# is compiled once; two targets run side by side.
 fuzz: $(BUILT_SOURCES)
-	for target in $(fuzz_targets); do \
-	  $(MKDIR_P) fuzz/$$target && \
-	  $(CC) -g -O1 -ffp-contract=off -fsanitize=fuzzer,address,undefined \
-	    $(DEFS) $(AM_CPPFLAGS) -Ilib $(top_srcdir)/tests/fuzz_$$target.c \
-	    $(top_srcdir)/lib/*.c -lm -o fuzz/fuzz_$$target && \
-	  fuzz/fuzz_$$target -max_total_time=$(FUZZ_SECONDS) -verbosity=0 \
-	    -print_final_stats=1 fuzz/$$target $(top_srcdir)/tests/corpus/$$target || exit 1; \
-	done
+	$(MKDIR_P) fuzz/lib
+	cd fuzz/lib && $(FUZZ) -fsanitize=fuzzer-no-link -c $(abs_top_srcdir)/lib/*.c
+	printf '%s\n' $(fuzz_targets) | xargs -P 2 -I TARGET sh -c \
+	  '$(MKDIR_P) fuzz/TARGET && \
+	  $(FUZZ) -fsanitize=fuzzer $(top_srcdir)/tests/fuzz_TARGET.c fuzz/lib/*.o -lm \
+	    -o fuzz/fuzz_TARGET && \
+	  fuzz/fuzz_TARGET -max_total_time=$(FUZZ_SECONDS) -verbosity=0 \
+	    -print_final_stats=1 -artifact_prefix=fuzz/TARGET- fuzz/TARGET \
+	    $(top_srcdir)/tests/corpus/TARGET || exit 255'
 
 clean-local: clean-fuzz
 .PHONY: clean-fuzz

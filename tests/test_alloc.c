@@ -1,415 +1,490 @@
-/* Out of memory at every allocation: each public function that allocates is run
- * with the first, the second, ... allocation refused, until it succeeds.  It must
- * say KOKSMA_ENOMEM; what it leaks, a sanitizer or valgrind finds.  Linked with
- * --wrap for the three functions below. */
+/* Out of memory at every allocation: each measure that allocates is run with the
+ * first, the second, ... allocation refused, until it succeeds.  It must say
+ * KOKSMA_ENOMEM and leave its outputs alone; what it leaks, a sanitizer or valgrind
+ * finds.  And threads that the system does not start. */
 
-#include <check.h>
-#include <stdlib.h>
-#include <string.h>
+#include "alloc_fixture.h"
+
+#include <pthread.h>
 
 #include "box.h"
 #include "cells.h"
 #include "curve.h"
 #include "edge.h"
 #include "fit.h"
-#include "gen.h"
-#include "io.h"
 #include "l2.h"
 #include "oracle.h"
 #include "star.h"
 #include "variation.h"
 
-void *__real_malloc(size_t size);
-void *__real_calloc(size_t count, size_t size);
-void *__real_realloc(void *old, size_t size);
-void *__wrap_malloc(size_t size);
-void *__wrap_calloc(size_t count, size_t size);
-void *__wrap_realloc(void *old, size_t size);
+/* ---- Threads that do not start ----------------------------------------------- */
 
-static long granted = -1; /* allocations until one is refused; negative: all */
+int __real_pthread_create(pthread_t *thread, const pthread_attr_t *attributes,
+                          void *(*work)(void *), void *state);
+int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes,
+                          void *(*work)(void *), void *state);
 
-static int refused(void) { return granted >= 0 && granted-- == 0; }
+static long starts = -1; /* threads until one is refused; negative: all */
 
-void *__wrap_malloc(size_t size) { return refused() ? NULL : __real_malloc(size); }
-
-void *__wrap_calloc(size_t count, size_t size)
+int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes,
+                          void *(*work)(void *), void *state)
 {
-    return refused() ? NULL : __real_calloc(count, size);
+    if (starts >= 0 && starts-- == 0) return EAGAIN;
+    return __real_pthread_create(thread, attributes, work, state);
 }
 
-void *__wrap_realloc(void *old, size_t size)
+/* ---- Discrepancies ----------------------------------------------------------- */
+
+enum { POINTS = 24 };
+
+/* Anywhere, and every fourth of them on a coarse grid. */
+static koksma_points points(size_t dim)
 {
-    return refused() ? NULL : __real_realloc(old, size);
+    static double x[POINTS * 3];
+    oracle_rng rng = oracle_rng_start(7, dim);
+
+    for (size_t i = 0; i < POINTS * dim; i++)
+        x[i] = oracle_dyadic(&rng, i / dim % 4 == 0 ? 2 : 40);
+    return (koksma_points){x, POINTS, dim};
 }
 
-/* Run job with ever more allocations granted; returns how many it took. */
-static long exhaust(koksma_status (*job)(koksma_error *err))
-{
-    for (long most = 0; most < 1000; most++) {
-        koksma_error err = {0};
-        koksma_status status;
+/* Of any measure: its method, and what else tells jobs apart. */
+typedef struct how {
+    int method;
+    size_t dim, threads;
+    bool anytime; /* l2: not looked at */
+    int kind;     /* of l2 */
+} how;
 
-        granted = most;
-        status = job(&err);
-        granted = -1;
-        if (status == KOKSMA_OK) return most;
-        ck_assert_int_eq(status, KOKSMA_ENOMEM);
-        ck_assert_int_eq(err.status, KOKSMA_ENOMEM);
-        ck_assert_msg(strncmp(err.text, "not enough memory for ", 22) == 0, "%s",
-                      err.text);
+/* Room for the largest result, and for what its witness points to. */
+typedef struct output {
+    union {
+        koksma_star_result star;
+        koksma_box_result box;
+        koksma_l2_result l2;
+        koksma_edge_result edge;
+    } r;
+    double corner[8];
+} output;
+
+static output blank(void)
+{
+    output o;
+
+    memset(&o, 0x5a, sizeof o);
+    return o;
+}
+
+static koksma_status star_of(output *out, const how *h, koksma_error *err)
+{
+    koksma_star_opts opts = {.method = (koksma_star_method)h->method,
+                             .anytime = h->anytime,
+                             .threads = h->threads};
+
+    return koksma_star(&out->r.star, points(h->dim), &opts, err);
+}
+
+static koksma_status star_job(const void *what, koksma_error *err)
+{
+    output o = blank(), before;
+
+    o.r.star.witness.corner = o.corner;
+    memcpy(&before, &o, sizeof o);
+    return kept(star_of(&o, what, err), &o, &before, sizeof o);
+}
+
+static koksma_status box_of(output *out, const how *h, koksma_error *err)
+{
+    koksma_box_opts opts = {.method = (koksma_box_method)h->method,
+                            .anytime = h->anytime,
+                            .threads = h->threads};
+
+    return koksma_box_discrepancy(&out->r.box, points(h->dim), &opts, err);
+}
+
+static koksma_status box_job(const void *what, koksma_error *err)
+{
+    output o = blank(), before;
+
+    o.r.box.witness.corners = o.corner;
+    memcpy(&before, &o, sizeof o);
+    return kept(box_of(&o, what, err), &o, &before, sizeof o);
+}
+
+static koksma_status l2_of(output *out, const how *h, koksma_error *err)
+{
+    koksma_l2_opts opts = {.kind = (koksma_l2_kind)h->kind,
+                           .method = (koksma_l2_method)h->method,
+                           .threads = h->threads};
+
+    return koksma_l2(&out->r.l2, points(h->dim), &opts, err);
+}
+
+static koksma_status l2_job(const void *what, koksma_error *err)
+{
+    output o = blank(), before;
+
+    memcpy(&before, &o, sizeof o);
+    return kept(l2_of(&o, what, err), &o, &before, sizeof o);
+}
+
+static koksma_status edge_of(output *out, const how *h, koksma_error *err)
+{
+    koksma_edge_opts opts = {.method = (koksma_edge_method)h->method,
+                             .anytime = h->anytime,
+                             .threads = h->threads};
+
+    return koksma_edge(&out->r.edge, points(2), &opts, err);
+}
+
+static koksma_status edge_job(const void *what, koksma_error *err)
+{
+    output o = blank(), before;
+
+    memcpy(&before, &o, sizeof o);
+    return kept(edge_of(&o, what, err), &o, &before, sizeof o);
+}
+
+/* All methods of a measure, and how few allocations would be a surprise: a row that
+ * meets less has not done its work. */
+typedef struct measure {
+    const char *name;
+    alloc_job *job;
+    koksma_status (*of)(output *out, const how *h, koksma_error *err);
+    how h;
+    long least;
+} measure;
+
+static const measure measures[] = {
+    {"star, sweep", star_job, star_of, {KOKSMA_STAR_SWEEP, 3, 1, false, 0}, 2},
+    {"star, sweep of a line",
+     star_job,
+     star_of,
+     {KOKSMA_STAR_SWEEP, 1, 1, false, 0},
+     2},
+    {"star, tree", star_job, star_of, {KOKSMA_STAR_TREE, 3, 1, false, 0}, 20},
+    {"star, tree in stages",
+     star_job,
+     star_of,
+     {KOKSMA_STAR_TREE, 3, 1, true, 0},
+     20},
+    {"star, lines", star_job, star_of, {KOKSMA_STAR_LINES, 2, 1, false, 0}, 8},
+    {"star, lines in space",
+     star_job,
+     star_of,
+     {KOKSMA_STAR_LINES, 3, 1, false, 0},
+     8},
+    {"star, lines in stages",
+     star_job,
+     star_of,
+     {KOKSMA_STAR_LINES, 3, 1, true, 0},
+     8},
+    {"star, dem", star_job, star_of, {KOKSMA_STAR_DEM, 3, 1, false, 0}, 2},
+    {"star, search", star_job, star_of, {KOKSMA_STAR_SEARCH, 3, 1, false, 0}, 7},
+    {"box, sweep", box_job, box_of, {KOKSMA_BOX_SWEEP, 2, 1, false, 0}, 8},
+    {"box, sweep of a line",
+     box_job,
+     box_of,
+     {KOKSMA_BOX_SWEEP, 1, 1, false, 0},
+     3},
+    {"box, tree", box_job, box_of, {KOKSMA_BOX_TREE, 2, 1, false, 0}, 8},
+    {"box, tree in stages", box_job, box_of, {KOKSMA_BOX_TREE, 2, 1, true, 0}, 8},
+    {"box, search", box_job, box_of, {KOKSMA_BOX_SEARCH, 2, 1, false, 0}, 7},
+    {"l2, pairs", l2_job, l2_of, {KOKSMA_L2_PAIRS, 3, 1, false, KOKSMA_L2_STAR}, 3},
+    {"l2, star", l2_job, l2_of, {KOKSMA_L2_DIVIDE, 3, 1, false, KOKSMA_L2_STAR}, 8},
+    {"l2, extreme",
+     l2_job,
+     l2_of,
+     {KOKSMA_L2_DIVIDE, 2, 1, false, KOKSMA_L2_EXTREME},
+     8},
+    {"l2, centered",
+     l2_job,
+     l2_of,
+     {KOKSMA_L2_DIVIDE, 3, 1, false, KOKSMA_L2_CENTERED},
+     8},
+    {"l2, periodic",
+     l2_job,
+     l2_of,
+     {KOKSMA_L2_DIVIDE, 3, 1, false, KOKSMA_L2_PERIODIC},
+     8},
+    {"l2, wraparound",
+     l2_job,
+     l2_of,
+     {KOKSMA_L2_DIVIDE, 2, 1, false, KOKSMA_L2_WRAPAROUND},
+     8},
+    {"l2, mixture",
+     l2_job,
+     l2_of,
+     {KOKSMA_L2_DIVIDE, 3, 1, false, KOKSMA_L2_MIXTURE},
+     8},
+    {"l2, symmetric",
+     l2_job,
+     l2_of,
+     {KOKSMA_L2_DIVIDE, 3, 1, false, KOKSMA_L2_SYMMETRIC},
+     8},
+    {"l2, of a line",
+     l2_job,
+     l2_of,
+     {KOKSMA_L2_DIVIDE, 1, 1, false, KOKSMA_L2_STAR},
+     3},
+    {"edge, sweep", edge_job, edge_of, {KOKSMA_EDGE_SWEEP, 2, 1, false, 0}, 7},
+    {"edge, tree", edge_job, edge_of, {KOKSMA_EDGE_TREE, 2, 1, false, 0}, 9},
+    {"edge, tree in stages",
+     edge_job,
+     edge_of,
+     {KOKSMA_EDGE_TREE, 2, 1, true, 0},
+     9},
+};
+enum { MEASURES = sizeof measures / sizeof *measures };
+
+START_TEST(discrepancies)
+{
+    const measure *m = &measures[_i % MEASURES];
+    how h = m->h;
+
+    h.threads = _i < MEASURES ? 1 : 2;
+    long took = exhaust(m->job, &h, m->name);
+    ck_assert_msg(took >= m->least, "%s: %ld allocations alone", m->name, took);
+}
+END_TEST
+
+/* Fewer threads do the work, to the same bits, be it one alone. */
+START_TEST(threads_that_do_not_start)
+{
+    const measure *m = &measures[_i];
+    how one = m->h, four = m->h;
+    output want = blank(), got = blank();
+
+    four.threads = 4;
+    want.r.star.witness.corner = NULL;
+    if (m->job == star_job) want.r.star.witness.corner = want.corner;
+    if (m->job == box_job) want.r.box.witness.corners = want.corner;
+    ck_assert_int_eq(m->of(&want, &one, NULL), KOKSMA_OK);
+    for (long most = 0; most < 4; most++) {
+        got = blank();
+        if (m->job == star_job) got.r.star.witness.corner = got.corner;
+        if (m->job == box_job) got.r.box.witness.corners = got.corner;
+        starts = most;
+        ck_assert_int_eq(m->of(&got, &four, NULL), KOKSMA_OK);
+        starts = -1;
+        /* The interval comes first in each of the results. */
+        ck_assert_msg(memcmp(&want.r, &got.r, sizeof(koksma_interval)) == 0 &&
+                          memcmp(want.corner, got.corner, sizeof want.corner) == 0,
+                      "%s with %ld more threads of 3", m->name, most);
     }
-    ck_abort_msg("1000 allocations and no end");
-    return 0;
 }
+END_TEST
 
-static koksma_status star_by(koksma_star_method method, koksma_error *err)
+/* ---- Cells ------------------------------------------------------------------- */
+
+/* Nothing is asserted in jobs: Check allocates. */
+static koksma_integrand integrand(const char *name, size_t dim)
 {
-    static const double x[] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6};
-    koksma_star_opts opts = {.method = method, .threads = 1};
-    koksma_star_result r = {0};
+    koksma_integrand f = {0};
 
-    return koksma_star(&r, (koksma_points){x, 2, 3}, &opts, err);
-}
-
-static koksma_status sweep_job(koksma_error *err)
-{
-    return star_by(KOKSMA_STAR_SWEEP, err);
-}
-
-static koksma_status tree_job(koksma_error *err)
-{
-    return star_by(KOKSMA_STAR_TREE, err);
-}
-
-static koksma_status dem_job(koksma_error *err)
-{
-    return star_by(KOKSMA_STAR_DEM, err);
-}
-
-static koksma_status search_job(koksma_error *err)
-{
-    return star_by(KOKSMA_STAR_SEARCH, err);
-}
-
-static koksma_status lines_job(koksma_error *err)
-{
-    static const double x[] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6};
-    koksma_star_opts opts = {.method = KOKSMA_STAR_LINES, .threads = 1};
-    koksma_star_result r = {0};
-
-    return koksma_star(&r, (koksma_points){x, 3, 2}, &opts, err);
-}
-
-static koksma_status box_by(koksma_box_method method, koksma_error *err)
-{
-    static const double x[] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6};
-    koksma_box_opts opts = {.method = method, .threads = 1};
-    koksma_box_result r = {0};
-
-    return koksma_box_discrepancy(&r, (koksma_points){x, 3, 2}, &opts, err);
-}
-
-static koksma_status box_sweep_job(koksma_error *err)
-{
-    return box_by(KOKSMA_BOX_SWEEP, err);
-}
-
-static koksma_status box_tree_job(koksma_error *err)
-{
-    return box_by(KOKSMA_BOX_TREE, err);
-}
-
-static koksma_status l2_by(koksma_l2_method method, koksma_error *err)
-{
-    static const double x[] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6};
-    koksma_l2_opts opts = {.method = method, .threads = 1};
-    koksma_l2_result r;
-
-    return koksma_l2(&r, (koksma_points){x, 2, 3}, &opts, err);
-}
-
-static koksma_status pairs_job(koksma_error *err)
-{
-    return l2_by(KOKSMA_L2_PAIRS, err);
-}
-
-static koksma_status divide_job(koksma_error *err)
-{
-    return l2_by(KOKSMA_L2_DIVIDE, err);
-}
-
-static koksma_status edge_by(koksma_edge_method method, koksma_error *err)
-{
-    static const double x[] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.1, 0.2};
-    koksma_edge_opts opts = {.method = method, .threads = 1};
-    koksma_edge_result r;
-
-    return koksma_edge(&r, (koksma_points){x, 4, 2}, &opts, err);
-}
-
-static koksma_status edge_sweep_job(koksma_error *err)
-{
-    return edge_by(KOKSMA_EDGE_SWEEP, err);
-}
-
-static koksma_status edge_tree_job(koksma_error *err)
-{
-    return edge_by(KOKSMA_EDGE_TREE, err);
-}
-
-static koksma_status open_by(const char *name, koksma_scramble scramble,
-                             koksma_error *err)
-{
-    static const double alpha[] = {0.1, 0.2, 0.3};
-    koksma_gen_opts o = {.dim = 3, .n = 8, .scramble = scramble};
-    koksma_gen *g;
-    koksma_status status;
-
-    if (strcmp(name, "kronecker") == 0) {
-        o.alpha = alpha;
-        o.alpha_size = 3;
-    }
-    status = koksma_gen_open(&g, koksma_gen_find(name), &o, err);
-    if (status == KOKSMA_OK) koksma_gen_close(g);
-    return status;
-}
-
-static koksma_status gen_job(koksma_error *err)
-{
-    return open_by("halton", KOKSMA_SCRAMBLE_DIGITS, err);
-}
-
-static koksma_status sobol_job(koksma_error *err)
-{
-    return open_by("sobol", KOKSMA_SCRAMBLE_OWEN, err);
-}
-
-static koksma_status faure_job(koksma_error *err)
-{
-    return open_by("faure", KOKSMA_SCRAMBLE_DIGITS, err);
-}
-
-static koksma_status kronecker_job(koksma_error *err)
-{
-    return open_by("kronecker", KOKSMA_SCRAMBLE_NONE, err);
-}
-
-static koksma_status latin_job(koksma_error *err)
-{
-    return open_by("latin", KOKSMA_SCRAMBLE_NONE, err);
-}
-
-static koksma_status multijittered_job(koksma_error *err)
-{
-    return open_by("multijittered", KOKSMA_SCRAMBLE_NONE, err);
-}
-
-static koksma_status poisson_job(koksma_error *err)
-{
-    return open_by("poisson", KOKSMA_SCRAMBLE_NONE, err);
-}
-
-static koksma_status read_job(const char *text, size_t size, koksma_error *err)
-{
-    char copy[512];
-    koksma_set set = {0};
-    koksma_reader *r = NULL;
-    koksma_status status;
-    long saved = granted;
-    FILE *in;
-
-    memcpy(copy, text, size);
-    granted = -1;
-    in = fmemopen(copy, size, "r");
-    granted = saved;
-    status = koksma_reader_open(&r, in, KOKSMA_VALUES, err);
-    while (status == KOKSMA_OK) {
-        status = koksma_set_read(&set, r, err);
-        if (set.n == 0) break;
-    }
-    koksma_reader_close(r);
-    koksma_set_free(&set);
-    fclose(in);
-    return status;
-}
-
-static koksma_status text_job(koksma_error *err)
-{
-    static const char text[] =
-        "# a comment\n# koksma: a=1\n0.5 1\n0.25 2\n\n0.5 0.5 7\n";
-
-    return read_job(text, sizeof text - 1, err);
-}
-
-static koksma_status npy_job(koksma_error *err)
-{
-    static const double rows[] = {0.5, 0.25, 3.0, 4.0}; /* column by column */
-    char text[160];
-
-    memset(text, ' ', 128);
-    memcpy(text, "\x93NUMPY\x01\x00\x76\x00", 10);
-    memcpy(text + 10, "{'descr': '<f8', 'fortran_order': True, 'shape': (2, 2), }",
-           58);
-    text[127] = '\n';
-    memcpy(text + 128, rows, sizeof rows);
-    return read_job(text, sizeof text, err);
-}
-
-static koksma_status table_job(koksma_error *err)
-{
-    char text[] = "# set N error\n1 8 0.5\n2 8 0.25\n";
-    koksma_table table = {0};
-    koksma_status status;
-    long saved = granted;
-    FILE *in;
-
-    granted = -1;
-    in = fmemopen(text, sizeof text - 1, "r");
-    granted = saved;
-    status = koksma_table_read(&table, in, "N", "error", err);
-    koksma_table_free(&table);
-    fclose(in);
-    return status;
-}
-
-static koksma_status curve_job(koksma_error *err)
-{
-    koksma_curve *c;
-    koksma_status status = koksma_curve_open(&c, 2, err);
-
-    if (status == KOKSMA_OK) koksma_curve_close(c);
-    return status;
-}
-
-static koksma_status fit_job(koksma_error *err)
-{
-    static const double x[] = {8, 16, 32}, y[] = {4, 2, 1};
-    static const size_t set[] = {0, 0, 0};
-    koksma_fit_result f;
-
-    return koksma_fit(&f, (koksma_fit_data){x, y, set, 3, 1}, NULL, err);
-}
-
-static koksma_status grid_job(koksma_error *err)
-{
-    static const double x[] = {0, 0, 0, 1, 1, 0, 1, 1}, f[] = {0, 1, 2, 3};
-    koksma_variation_result r;
-
-    return koksma_variation_points(&r, NULL, (koksma_points){x, 4, 2}, f, err);
-}
-
-static koksma_status variation_by(koksma_variation_method method, koksma_error *err)
-{
-    koksma_variation_opts o = {
-        .method = method, .cells = 4, .samples = 1000.0, .seed = 1};
-    koksma_variation_result r;
-    koksma_estimate faces[4];
-    koksma_integrand f;
-    koksma_status status =
-        koksma_integrand_make(&f, NULL, koksma_integrand_find("f2"), 2, NULL, err);
-
-    return status != KOKSMA_OK ? status : koksma_variation(&r, faces, &f, &o, err);
-}
-
-static koksma_status dense_job(koksma_error *err)
-{
-    return variation_by(KOKSMA_VARIATION_GRID, err);
-}
-
-static koksma_status boundary_job(koksma_error *err)
-{
-    return variation_by(KOKSMA_VARIATION_BOUNDARY, err);
-}
-
-static koksma_status random_job(koksma_error *err)
-{
-    return variation_by(KOKSMA_VARIATION_RANDOM, err);
-}
-
-/* Nothing is asserted here: Check allocates. */
-static koksma_integrand ball(void)
-{
-    koksma_integrand f;
-
-    (void)koksma_integrand_make(&f, NULL, koksma_integrand_find("ball"), 2, NULL,
+    (void)koksma_integrand_make(&f, NULL, koksma_integrand_find(name), dim, NULL,
                                 NULL);
     return f;
 }
 
-static koksma_status cells_job(koksma_error *err)
+static koksma_status count_job(const void *what, koksma_error *err)
 {
-    koksma_integrand f = ball();
-    koksma_cell_slope s;
+    static const uint64_t cells[] = {8, 8, 8};
+    koksma_integrand f = integrand(what, 3);
+    koksma_cell_count r, before;
 
-    return koksma_cells_slope(&s, &f, 64, NULL, NULL, NULL, err);
+    memset(&r, 0x5a, sizeof r);
+    memcpy(&before, &r, sizeof r);
+    return kept(koksma_cells_count(&r, &f, cells, NULL, err), &r, &before,
+                sizeof r);
 }
 
-static koksma_status cross_job(koksma_error *err)
+static koksma_status slope_job(const void *what, koksma_error *err)
+{
+    koksma_integrand f = integrand(what, 2);
+    koksma_cell_slope r, before;
+
+    memset(&r, 0x5a, sizeof r);
+    memcpy(&before, &r, sizeof r);
+    return kept(koksma_cells_slope(&r, &f, 64, NULL, NULL, NULL, err), &r, &before,
+                sizeof r);
+}
+
+static koksma_status lines_job(const void *what, koksma_error *err)
 {
     koksma_lines_opts o = KOKSMA_LINES_DEFAULTS;
-    koksma_integrand f = ball();
-    koksma_lines_result r;
+    koksma_integrand f = integrand(what, 2);
+    struct {
+        koksma_lines_result r;
+        koksma_estimate axes[2];
+    } out, before;
 
     o.lines = 2;
-    return koksma_lines(&r, NULL, &f, &o, err);
+    memset(&out, 0x5a, sizeof out);
+    memcpy(&before, &out, sizeof out);
+    return kept(koksma_lines(&out.r, out.axes, &f, &o, err), &out, &before,
+                sizeof out);
 }
 
-static koksma_status occupancy_job(koksma_error *err)
+static koksma_status occupancy_job(const void *what, koksma_error *err)
 {
-    const double x[] = {0.1, 0.9}, v[] = {0.0, 1.0};
-    const uint64_t cells[] = {2};
-    koksma_points p = {x, 2, 1};
-    koksma_samples_result r;
-    koksma_occupancy o;
-    koksma_status status = koksma_cells_occupancy(&o, p, cells, err);
+    static const uint64_t cells[] = {2};
+    koksma_occupancy r, before;
 
-    if (status == KOKSMA_OK)
-        status =
-            koksma_cells_occupancy_halton(&o, 0, 2, 1, (uint32_t[]){2}, cells, err);
-    return status != KOKSMA_OK ? status : koksma_samples(&r, p, v, cells, 0.5, err);
+    memset(&r, 0x5a, sizeof r);
+    memcpy(&before, &r, sizeof r);
+    if (what == NULL)
+        return kept(koksma_cells_occupancy(&r, points(1), cells, err), &r, &before,
+                    sizeof r);
+    return kept(
+        koksma_cells_occupancy_halton(&r, 0, 2, 1, (uint32_t[]){2}, cells, err), &r,
+        &before, sizeof r);
 }
 
-START_TEST(every_allocation_may_fail)
+static koksma_status samples_job(const void *what, koksma_error *err)
 {
-    ck_assert_int_ge(exhaust(cells_job), 3);
-    ck_assert_int_ge(exhaust(cross_job), 2);
-    ck_assert_int_ge(exhaust(occupancy_job), 3);
-    ck_assert_int_ge(exhaust(sweep_job), 2);
-    ck_assert_int_ge(exhaust(tree_job), 20);
-    ck_assert_int_ge(exhaust(lines_job), 8);
-    ck_assert_int_ge(exhaust(box_sweep_job), 8);
-    ck_assert_int_ge(exhaust(box_tree_job), 8);
-    ck_assert_int_ge(exhaust(dem_job), 2);
-    ck_assert_int_ge(exhaust(search_job), 7);
-    ck_assert_int_ge(exhaust(pairs_job), 3);
-    ck_assert_int_ge(exhaust(divide_job), 8);
-    ck_assert_int_ge(exhaust(edge_sweep_job), 7);
-    ck_assert_int_ge(exhaust(edge_tree_job), 9);
-    ck_assert_int_ge(exhaust(gen_job), 5);
-    ck_assert_int_ge(exhaust(sobol_job), 3);
-    ck_assert_int_ge(exhaust(faure_job), 4);
-    ck_assert_int_ge(exhaust(kronecker_job), 2);
-    ck_assert_int_ge(exhaust(latin_job), 3);
-    ck_assert_int_ge(exhaust(multijittered_job), 4);
-    ck_assert_int_ge(exhaust(poisson_job), 5);
-    ck_assert_int_ge(exhaust(text_job), 4);
-    ck_assert_int_ge(exhaust(npy_job), 5);
-    ck_assert_int_ge(exhaust(table_job), 4);
-    ck_assert_int_ge(exhaust(curve_job), 1);
-    ck_assert_int_ge(exhaust(fit_job), 6);
-    ck_assert_int_ge(exhaust(grid_job), 6);
-    ck_assert_int_ge(exhaust(dense_job), 4);
-    ck_assert_int_ge(exhaust(boundary_job), 2);
-    ck_assert_int_ge(exhaust(random_job), 1);
+    static const uint64_t cells[] = {2};
+    static const double f[POINTS] = {0.0, 1.0};
+    koksma_samples_result r, before;
+
+    (void)what;
+    memset(&r, 0x5a, sizeof r);
+    memcpy(&before, &r, sizeof r);
+    return kept(koksma_samples(&r, points(1), f, cells, 0.5, err), &r, &before,
+                sizeof r);
+}
+
+START_TEST(cells)
+{
+    ck_assert_int_ge(exhaust(count_job, "ball", "cells"), 1);
+    ck_assert_int_ge(exhaust(slope_job, "ball", "slope"), 3);
+    ck_assert_int_ge(exhaust(lines_job, "ball", "lines"), 2);
+    ck_assert_int_ge(exhaust(occupancy_job, NULL, "occupancy"), 1);
+    ck_assert_int_ge(exhaust(occupancy_job, "halton", "occupancy of halton"), 1);
+    ck_assert_int_ge(exhaust(samples_job, NULL, "samples"), 1);
+}
+END_TEST
+
+/* ---- Variation --------------------------------------------------------------- */
+
+typedef struct varied {
+    koksma_variation_result r;
+    koksma_estimate faces[4];
+} varied;
+
+static koksma_status variation_job(const void *what, koksma_error *err)
+{
+    koksma_variation_opts o = {.method = *(const koksma_variation_method *)what,
+                               .cells = 4,
+                               .samples = 1000.0,
+                               .seed = 1};
+    koksma_integrand f = integrand("f2", 2);
+    varied out, before;
+
+    memset(&out, 0x5a, sizeof out);
+    memcpy(&before, &out, sizeof out);
+    return kept(koksma_variation(&out.r, out.faces, &f, &o, err), &out, &before,
+                sizeof out);
+}
+
+static const double corners[] = {0, 0, 0, 1, 1, 0, 1, 1}, values[] = {0, 1, 2, 3};
+
+static koksma_status points_job(const void *what, koksma_error *err)
+{
+    varied out, before;
+
+    (void)what;
+    memset(&out, 0x5a, sizeof out);
+    memcpy(&before, &out, sizeof out);
+    return kept(koksma_variation_points(
+                    &out.r, out.faces, (koksma_points){corners, 4, 2}, values, err),
+                &out, &before, sizeof out);
+}
+
+static koksma_status nodes_job(const void *what, koksma_error *err)
+{
+    static const size_t nodes[] = {2, 2};
+    koksma_variation_grid *g = NULL, *before = NULL;
+    koksma_variation_result r;
+    koksma_status status =
+        kept(koksma_variation_open(&g, nodes, 2, err), &g, &before, sizeof(void *));
+
+    (void)what;
+    if (status == KOKSMA_OK) status = koksma_variation_add(g, values, 4, err);
+    if (status == KOKSMA_OK) status = koksma_variation_finish(&r, NULL, g, err);
+    koksma_variation_close(g);
+    return status;
+}
+
+START_TEST(variation)
+{
+    static const koksma_variation_method methods[] = {
+        KOKSMA_VARIATION_GRID, KOKSMA_VARIATION_BOUNDARY, KOKSMA_VARIATION_RANDOM};
+
+    ck_assert_int_ge(exhaust(variation_job, &methods[0], "grid"), 4);
+    ck_assert_int_ge(exhaust(variation_job, &methods[1], "boundary"), 2);
+    ck_assert_int_ge(exhaust(variation_job, &methods[2], "random"), 1);
+    ck_assert_int_ge(exhaust(points_job, NULL, "points of a grid"), 6);
+    ck_assert_int_ge(exhaust(nodes_job, NULL, "nodes"), 3);
+}
+END_TEST
+
+/* ---- Curves and fits --------------------------------------------------------- */
+
+static koksma_status curve_job(const void *what, koksma_error *err)
+{
+    static const uint64_t n[] = {1, 3, 9};
+    koksma_curve *c = NULL, *before = NULL;
+    koksma_status status = kept(what == NULL ? koksma_curve_open(&c, 2, err)
+                                             : koksma_curve_open_at(&c, n, 3, err),
+                                &c, &before, sizeof(void *));
+
+    koksma_curve_close(c);
+    return status;
+}
+
+static koksma_status fit_job(const void *what, koksma_error *err)
+{
+    enum { ROWS = 64, SETS = 4 };
+    double x[ROWS], y[ROWS];
+    size_t set[ROWS];
+    koksma_fit_opts o = {.model = *(const koksma_fit_model *)what};
+    koksma_fit_result r, before;
+
+    for (size_t i = 0; i < ROWS; i++) {
+        x[i] = (double)(2u << i / SETS);
+        y[i] = (1.0 + 0.1 * (double)(i % 3)) / x[i] + 1e-3;
+        set[i] = i % SETS;
+    }
+    memset(&r, 0x5a, sizeof r);
+    memcpy(&before, &r, sizeof r);
+    return kept(koksma_fit(&r, (koksma_fit_data){x, y, set, ROWS, SETS}, &o, err),
+                &r, &before, sizeof r);
+}
+
+START_TEST(curves_and_fits)
+{
+    static const koksma_fit_model models[] = {
+        KOKSMA_FIT_POWER, KOKSMA_FIT_TWO_TERMS, KOKSMA_FIT_TWO_POWERS};
+
+    ck_assert_int_ge(exhaust(curve_job, NULL, "curve"), 1);
+    ck_assert_int_ge(exhaust(curve_job, "at", "curve at"), 1);
+    for (size_t i = 0; i < 3; i++)
+        ck_assert_int_ge(exhaust(fit_job, &models[i], "fit"), 6);
 }
 END_TEST
 
 int main(void)
 {
     Suite *suite = suite_create("alloc");
-    TCase *tc = tcase_create("alloc");
+    TCase *tc = tcase_create("memory"), *threads = tcase_create("threads");
 
-    tcase_add_test(tc, every_allocation_may_fail);
+    tcase_add_loop_test(tc, discrepancies, 0, 2 * MEASURES);
+    tcase_add_test(tc, cells);
+    tcase_add_test(tc, variation);
+    tcase_add_test(tc, curves_and_fits);
     suite_add_tcase(suite, tc);
+    tcase_add_loop_test(threads, threads_that_do_not_start, 0, MEASURES);
+    suite_add_tcase(suite, threads);
     return oracle_run(suite);
 }
