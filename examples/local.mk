@@ -3,7 +3,7 @@
 examplesdir = $(docdir)/examples
 dist_examples_SCRIPTS = \
   %D%/figure2.sh %D%/figure5.sh %D%/figure6.sh %D%/figure8.sh %D%/albedo.sh \
-  %D%/halton-bases.sh %D%/shooting.sh
+  %D%/halton-bases.sh %D%/patterns.sh %D%/shooting.sh
 dist_examples_DATA = %D%/README %D%/common.sh
 
 .PHONY: figures
