@@ -76,17 +76,6 @@ static void take_primes(cells_options *o)
     o->primes = true;
 }
 
-const uint32_t *cells_bases(cells_options *o, size_t dim)
-{
-    if (o->powers == 0) return NULL;
-    if (dim > KOKSMA_GRID_BASES_MOST)
-        cli_usage("elementary intervals have at most %d coordinates, not %zu",
-                  KOKSMA_GRID_BASES_MOST, dim);
-    if (!o->primes && o->powers != dim)
-        cli_usage("%zu bases for %zu coordinates", o->powers, dim);
-    return o->bases;
-}
-
 static koksma_integrand choose(cli_integrand *r, koksma_facts *facts,
                                const char *name)
 {

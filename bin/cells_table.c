@@ -32,6 +32,17 @@ static void columns(koksma_estimate e)
 
 static koksma_estimate known(double v) { return (koksma_estimate){v, v, v, 1.0}; }
 
+const uint32_t *cells_bases(cells_options *o, size_t dim)
+{
+    if (o->powers == 0) return NULL;
+    if (dim > KOKSMA_GRID_BASES_MOST)
+        cli_usage("elementary intervals have at most %d coordinates, not %zu",
+                  KOKSMA_GRID_BASES_MOST, dim);
+    if (!o->primes && o->powers != dim)
+        cli_usage("%zu bases for %zu coordinates", o->powers, dim);
+    return o->bases;
+}
+
 /* ---- Rows -------------------------------------------------------------------- */
 
 uint64_t cells_print_grid(uint64_t n, const uint64_t *cells, size_t dim)

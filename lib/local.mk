@@ -45,8 +45,9 @@ noinst_LTLIBRARIES = %D%/libcore.la
   %D%/tree_bound.c %D%/tree_bound_closed.c %D%/tree_bound_open.c %D%/tree_cell.c \
   %D%/tree_climb.c %D%/tree_climb_kernels.h %D%/tree_dive.c %D%/tree_ranks.c \
   %D%/tree_run.c %D%/tree_run_kernels.h %D%/tree_search.c %D%/tree_sort.c \
-  %D%/variation.c %D%/variation.h %D%/variation_kernels.h %D%/variation_grid.c \
-  %D%/variation_points.c %D%/variation_random.c %D%/variation_tree.c
+  %D%/variation.c %D%/variation.h %D%/variation_kernels.h %D%/variation_cell.c \
+  %D%/variation_dense.c %D%/variation_grid.c %D%/variation_points.c \
+  %D%/variation_random.c %D%/variation_tree.c
 %C%_libcore_la_CPPFLAGS = $(AM_CPPFLAGS) -I$(top_builddir)/%D%
 
 # Sobol's direction numbers, from the published table to C.

@@ -1,9 +1,6 @@
 #include "variation.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "error.h"
 #include "variation_kernels.h"
@@ -42,125 +39,6 @@ void koksma_variation_judge(koksma_variation_result *r)
         r->trend = KOKSMA_TREND_DIVERGING;
     else if (fabs(p) + off_p < most && fabs(q) + off_q < most)
         r->trend = KOKSMA_TREND_CONVERGED;
-}
-
-/* ---- Cells ------------------------------------------------------------------- */
-
-/* From corner to corner one coordinate changes: the Gray code of their number. */
-double ki_variation_cell(const koksma_integrand *f, unsigned u, const size_t *low,
-                         size_t k, double *x, double *work)
-{
-    size_t axis[KOKSMA_VARIATION_DIM_MOST], order = 0;
-    double sum = 0.0, top = 0.0;
-    unsigned upper = 0;
-    bool minus = false;
-
-    for (size_t j = 0; j < f->dim; j++)
-        if (u >> j & 1) {
-            axis[order++] = j;
-            x[j] = (double)low[j] / (double)k;
-        }
-    for (unsigned corner = 0; corner < 1u << order; corner++, minus = !minus) {
-        double v;
-
-        if (corner > 0) {
-            unsigned b = (unsigned)__builtin_ctz(corner);
-            size_t j = axis[b];
-
-            upper ^= 1u << b;
-            x[j] = (double)(low[j] + (upper >> b & 1)) / (double)k;
-        }
-        v = f->value(f, x);
-        if (!isfinite(v)) return v;
-        sum += minus ? -v : v;
-        top = fmax(top, fabs(v));
-    }
-    *work += (double)(1u << order);
-    sum = fabs(sum);
-    return sum < ki_variation_floor(top, order) ? 0.0 : sum;
-}
-
-koksma_status ki_variation_bad_value(const koksma_integrand *f, const double *x,
-                                     koksma_error *err)
-{
-    double v = f->value(f, x);
-    char place[100] = "";
-    size_t used = 0;
-
-    ki_c_locale l;
-
-    if (isfinite(v)) return ki_variation_too_large(err);
-    l = ki_c_locale_enter();
-    for (size_t j = 0; j < f->dim && used < sizeof place - 24; j++)
-        used += (size_t)snprintf(place + used, sizeof place - used, "%s%g",
-                                 j > 0 ? ", " : "", x[j]);
-    ki_c_locale_leave(l);
-    return ki_fail(err, KOKSMA_EDOMAIN, 0, "the value at (%s) is %g, not finite",
-                   place, v);
-}
-
-koksma_status ki_variation_too_large(koksma_error *err)
-{
-    return ki_fail(err, KOKSMA_EDOMAIN, 0,
-                   "differences of the values leave the range of a double");
-}
-
-koksma_status ki_variation_stopped(const ki_variation_watch *w, koksma_error *err)
-{
-    return ki_fail(err, KOKSMA_STOPPED, 0,
-                   "stopped after %.3g values; the grids so far are done", w->work);
-}
-
-/* ---- Every node -------------------------------------------------------------- */
-
-/* Rows along the last axis, one after the other. */
-static koksma_status add_nodes(koksma_variation_grid *g, const koksma_integrand *f,
-                               double *row, size_t k, ki_variation_watch *w,
-                               koksma_error *err)
-{
-    size_t last = f->dim - 1, at[KOKSMA_VARIATION_DIM_MOST] = {0};
-    double x[KOKSMA_VARIATION_DIM_MOST] = {0.0};
-
-    for (;;) {
-        size_t j = last;
-        koksma_status status;
-
-        for (size_t i = 0; i <= k; i++) {
-            if (ki_variation_told_to_stop(w)) return ki_variation_stopped(w, err);
-            x[last] = (double)i / (double)k;
-            row[i] = f->value(f, x);
-            w->work++;
-            if (!isfinite(row[i])) return ki_variation_bad_value(f, x, err);
-        }
-        status = koksma_variation_add(g, row, k + 1, err);
-        if (status != KOKSMA_OK) return status;
-        while (j > 0 && at[j - 1] == k) {
-            at[--j] = 0;
-            x[j] = 0.0;
-        }
-        if (j == 0) return KOKSMA_OK;
-        x[j - 1] = (double)++at[j - 1] / (double)k;
-    }
-}
-
-koksma_status ki_variation_dense(koksma_variation_result *out,
-                                 koksma_estimate *faces, const koksma_integrand *f,
-                                 size_t k, ki_variation_watch *w, koksma_error *err)
-{
-    size_t nodes[KOKSMA_VARIATION_DIM_MOST];
-    double *row = ki_alloc(k + 1, sizeof *row);
-    koksma_variation_grid *g = NULL;
-    koksma_status status;
-
-    if (row == NULL) return ki_fail_memory(err, "a row of a grid");
-    for (size_t j = 0; j < f->dim; j++)
-        nodes[j] = k + 1;
-    status = koksma_variation_open(&g, nodes, f->dim, err);
-    if (status == KOKSMA_OK) status = add_nodes(g, f, row, k, w, err);
-    if (status == KOKSMA_OK) status = koksma_variation_finish(out, faces, g, err);
-    koksma_variation_close(g);
-    free(row);
-    return status;
 }
 
 /* ---- The choice -------------------------------------------------------------- */
