@@ -68,7 +68,7 @@ static bool measure(koksma_points p, void *state)
     cli_search_row(s, p, r.value, r.work);
     if (s->witness) print_witness(&r.witness, p);
     free(r.witness.corners);
-    cli_search_end(s, p, r.method, reason(r.method, p), r.work);
+    cli_search_end(s, p, (int)r.method, reason(r.method, p), r.work);
     return status == KOKSMA_OK;
 }
 

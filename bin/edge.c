@@ -53,7 +53,7 @@ static bool measure(koksma_points p, void *state)
     cli_search_stop(s, status, &err);
     cli_search_row(s, p, r.value, r.work);
     if (s->witness) print_witness(&r.witness);
-    cli_search_end(s, p, r.method,
+    cli_search_end(s, p, (int)r.method,
                    r.method == KOKSMA_EDGE_SWEEP ? "few points" : "many points",
                    r.work);
     return status == KOKSMA_OK;
