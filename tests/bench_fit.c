@@ -60,9 +60,9 @@ int main(void)
     bench_exponent((path_kind){"halton", "f3", 0.0, 0, 1 << 17, 0},
                    KOKSMA_FIT_AUTO);
     for (size_t dim = 2; dim <= 4; dim++)
-        bench_exponent((path_kind){"halton", "ball", NAN, 0, 1 << 17, dim},
+        bench_exponent((path_kind){"halton", "ball", (double)NAN, 0, 1 << 17, dim},
                        KOKSMA_FIT_AUTO);
-    bench_exponent((path_kind){"halton", "sphere", NAN, 0, 1 << 17, 2},
+    bench_exponent((path_kind){"halton", "sphere", (double)NAN, 0, 1 << 17, 2},
                    KOKSMA_FIT_AUTO);
     bench_exponent((path_kind){"halton", "f2", 0.45, 0, 1 << 17, 0},
                    KOKSMA_FIT_TWO_TERMS);
