@@ -136,6 +136,8 @@ static void read_part(box_options *o, const char *text)
 static const char *reason(const box_options *o, const koksma_box_result *r,
                           koksma_points p)
 {
+    if (r->method == KOKSMA_BOX_SEARCH && o->opts.method != KOKSMA_BOX_SEARCH)
+        return "stopped before the rest";
     if (o->opts.method != KOKSMA_BOX_AUTO) return "as told";
     if (p.dim == 1) return "one coordinate";
     if (p.dim > 2) return "more than two coordinates";
