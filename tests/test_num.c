@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "num_exact.h"
 #include "num_kernels.h"
 #include "num_twice.h"
-#include "num_exact.h"
 #include "oracle.h"
 
 __extension__ typedef unsigned __int128 wide;
