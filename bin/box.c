@@ -29,6 +29,7 @@ static const cli_search_method methods[] = {
 
 static const char *reason(koksma_box_method method, koksma_points p)
 {
+    if (method == KOKSMA_BOX_SEARCH) return "stopped before the rest";
     if (p.dim == 1) return "one coordinate";
     if (p.dim > 2) return "more than two coordinates";
     return method == KOKSMA_BOX_SWEEP ? "few points too many"

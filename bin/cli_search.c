@@ -127,7 +127,7 @@ void cli_search_end(const cli_search *s, koksma_points p, int method,
     if (s->verbose)
         cli_note("%zu points, %zu coordinates: %s (%s), %.3g %s, %.2f s", p.n,
                  p.dim, s->methods[method].name,
-                 s->method != 0 ? "as told" : reason, work,
+                 s->method == method ? "as told" : reason, work,
                  s->methods[method].steps, cli_seconds(&s->watch));
 }
 

@@ -5,7 +5,6 @@
 
 #include "box_kernels.h"
 #include "error.h"
-#include "tree_climb_kernels.h"
 
 koksma_interval koksma_box_between(const koksma_box_witness *w, koksma_points p)
 {
@@ -23,7 +22,8 @@ static koksma_status tree(ki_best *b, const ki_run_opts *opts, double *upper,
 static koksma_status search(ki_best *b, const ki_run_opts *opts, double *upper,
                             double *work, bool *stopped)
 {
-    return ki_tree_search(b, opts, &ki_box_measure, upper, work, stopped);
+    return ki_tree_search(b, opts, &ki_box_measure, KI_PATIENCE, upper, work,
+                          stopped);
 }
 
 static ki_box_kernel *const kernels[] = {
@@ -39,43 +39,21 @@ enum { CLOSE = 10, FEW = 64 };
 /* Climbs in vain, a kind and coordinate, before the choice. */
 enum { CLIMBS = 5 };
 
-static bool never(void *state, double work)
-{
-    (void)state;
-    (void)work;
-    return false;
-}
-
-/* A few climbs say how uniform the points are, to choose the method; the incumbent
- * keeps what they find. */
-static koksma_status climb(ki_best *b, uint64_t seed)
-{
-    ki_ranks ranks[2] = {{0}};
-    koksma_status status = ki_ranks_make(&ranks[0], b->p, false, &ki_box_measure);
-
-    if (status == KOKSMA_OK)
-        status = ki_ranks_make(&ranks[1], b->p, true, &ki_box_measure);
-    if (status == KOKSMA_OK)
-        status = ki_climb(b, ranks, seed, CLIMBS * b->p.dim, never, NULL);
-    ki_ranks_free(&ranks[0]);
-    ki_ranks_free(&ranks[1]);
-    return status;
-}
-
+/* In the plane a few climbs say how uniform the points are; the incumbent keeps
+ * what they find.  Where they are stopped they were all of it. */
 static koksma_status choose(koksma_box_method *method, ki_best *b,
-                            const koksma_box_opts *opts)
+                            const ki_run_opts *opts, double *upper, double *work,
+                            bool *stopped)
 {
-    koksma_status status = KOKSMA_OK;
+    bool told = *method != KOKSMA_BOX_AUTO;
+    koksma_status status;
 
-    *method = opts->method;
-    if (*method == KOKSMA_BOX_AUTO)
-        *method = b->p.dim == 1 ? KOKSMA_BOX_SWEEP : KOKSMA_BOX_TREE;
-    if (*method != KOKSMA_BOX_SEARCH && b->p.dim == 2) {
-        status = climb(b, opts->seed);
-        if (opts->method == KOKSMA_BOX_AUTO &&
-            (b->p.n <= FEW || (double)b->p.n * b->proven < CLOSE))
-            *method = KOKSMA_BOX_SWEEP;
-    }
+    if (!told) *method = b->p.dim == 1 ? KOKSMA_BOX_SWEEP : KOKSMA_BOX_TREE;
+    if (*method == KOKSMA_BOX_SEARCH || b->p.dim != 2) return KOKSMA_OK;
+    status = ki_tree_search(b, opts, &ki_box_measure, CLIMBS, upper, work, stopped);
+    if (!told && (b->p.n <= FEW || (double)b->p.n * b->proven < CLOSE))
+        *method = KOKSMA_BOX_SWEEP;
+    if (*stopped) *method = KOKSMA_BOX_SEARCH;
     return status;
 }
 
@@ -125,8 +103,9 @@ koksma_status koksma_box_discrepancy(koksma_box_result *out, koksma_points p,
     ki_best best = ki_best_begin_between(p, corners);
     ki_run_opts shared = run_opts(opts);
 
-    status = choose(&r.method, &best, opts);
-    if (status == KOKSMA_OK)
+    r.method = opts->method;
+    status = choose(&r.method, &best, &shared, &r.value.upper, &r.work, &stopped);
+    if (status == KOKSMA_OK && !stopped)
         status =
             kernels[r.method](&best, &shared, &r.value.upper, &r.work, &stopped);
     if (status != KOKSMA_OK) {

@@ -49,7 +49,8 @@ typedef enum koksma_box_method {
 typedef struct koksma_box_result {
     koksma_interval value;      /* E lies in [value.lower, value.upper] */
     koksma_box_witness witness; /* its local discrepancy is at least value.lower */
-    koksma_box_method method;   /* which one ran */
+    koksma_box_method method;   /* which one ran; the search, where it was stopped
+                                 * before there was another */
     double work; /* its steps: nodes for the sweep, entries of lists of points for
                   * the tree, points looked at for the search */
 } koksma_box_result;

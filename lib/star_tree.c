@@ -41,5 +41,6 @@ koksma_status ki_star_search(ki_best *b, const koksma_star_opts *opts,
 {
     ki_run_opts shared = ki_star_run_opts(opts);
 
-    return ki_tree_search(b, &shared, &ki_star_measure, upper, work, stopped);
+    return ki_tree_search(b, &shared, &ki_star_measure, KI_PATIENCE, upper, work,
+                          stopped);
 }

@@ -223,9 +223,12 @@ koksma_status ki_tree(ki_best *b, const ki_run_opts *opts,
                       const ki_measure *measure, ki_tree_before *before,
                       double *upper, double *work, bool *stopped);
 
-/* The same by climbing alone: *upper is 1. */
+/* The same by climbing alone, until so many starts a kind and axis have made
+ * nothing better: *upper is 1.  KI_PATIENCE finds the best box where that is known,
+ * but for one set in many. */
+enum { KI_PATIENCE = 100 };
 koksma_status ki_tree_search(ki_best *b, const ki_run_opts *opts,
-                             const ki_measure *measure, double *upper, double *work,
-                             bool *stopped);
+                             const ki_measure *measure, size_t patience,
+                             double *upper, double *work, bool *stopped);
 
 #endif

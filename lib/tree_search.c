@@ -2,10 +2,6 @@
 
 /* The heuristic alone. */
 
-/* Stop after so many starts a kind and axis that made nothing better.  Measured:
- * that finds D* where it is known, but for one set in many. */
-enum { PATIENCE = 100 };
-
 /* What is known without a search: no deviation is above 1. */
 static const double UPPER = 1.0;
 
@@ -32,8 +28,8 @@ static bool told_to_stop(void *state, double work)
 }
 
 koksma_status ki_tree_search(ki_best *b, const ki_run_opts *opts,
-                             const ki_measure *measure, double *upper, double *work,
-                             bool *stopped)
+                             const ki_measure *measure, size_t patience,
+                             double *upper, double *work, bool *stopped)
 {
     search s = {.best = b, .opts = opts, .next_report = 0x1p20};
     ki_ranks ranks[2] = {{0}};
@@ -42,7 +38,7 @@ koksma_status ki_tree_search(ki_best *b, const ki_run_opts *opts,
     if (status == KOKSMA_OK) status = ki_ranks_make(&ranks[1], b->p, true, measure);
     if (status == KOKSMA_OK)
         status =
-            ki_climb(b, ranks, opts->seed, PATIENCE * b->p.dim, told_to_stop, &s);
+            ki_climb(b, ranks, opts->seed, patience * b->p.dim, told_to_stop, &s);
     ki_ranks_free(&ranks[0]);
     ki_ranks_free(&ranks[1]);
     *upper = UPPER;

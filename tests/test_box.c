@@ -386,6 +386,28 @@ START_TEST(stopped_is_true_but_wider)
 }
 END_TEST
 
+/* Many points take long before there is a method at all: that can be stopped. */
+START_TEST(the_choice_can_be_stopped)
+{
+    const struct source many = {"halton", 2, 6000, 0};
+    koksma_points p = points_of(&many);
+
+    for (int m = KOKSMA_BOX_AUTO; m <= KOKSMA_BOX_TREE; m++) {
+        size_t calls = 2;
+        koksma_box_opts opts = {.method = (koksma_box_method)m,
+                                .progress = stop_at_once,
+                                .state = &calls};
+        koksma_box_result r = {0};
+
+        ck_assert_int_eq(koksma_box_discrepancy(&r, p, &opts, NULL),
+                         KOKSMA_STOPPED);
+        ck_assert_uint_eq(calls, 3);
+        ck_assert_int_eq(r.method, KOKSMA_BOX_SEARCH);
+        ck_assert(r.value.lower > 0.0 && r.value.upper == 1.0 && r.work > 0.0);
+    }
+}
+END_TEST
+
 START_TEST(search_finds_boxes_that_are_there)
 {
     koksma_points p = points_of(&sources[_i]);
@@ -486,6 +508,7 @@ int main(void)
     tcase_add_loop_test(large, parts_make_the_whole, 2, SOURCES);
     tcase_add_loop_test(large, tolerance_is_kept, 2, SOURCES);
     tcase_add_loop_test(large, stopped_is_true_but_wider, 2, SOURCES);
+    tcase_add_test(large, the_choice_can_be_stopped);
     tcase_add_loop_test(large, search_finds_boxes_that_are_there, 2, SOURCES);
     tcase_set_timeout(small, 600);
     tcase_set_timeout(large, 600);
