@@ -16,7 +16,11 @@
  * Coordinates must be multiples of 2^-b with b*dim + log2(n) <= 120 (the oracle
  * finds b itself and aborts when there is none): every local discrepancy is then
  * an integer over n*2^(b*dim), and no comparison below rounds. */
+#ifdef __SIZEOF_INT128__
 __extension__ typedef __int128 oracle_int;
+#else
+__extension__ typedef _BitInt(128) oracle_int;
+#endif
 
 /* The number num / (n * 2^shift), which lies in [-1,1]. */
 typedef struct oracle_ratio {

@@ -6,12 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "num_exact.h"
 #include "num_kernels.h"
 #include "num_twice.h"
-#include "num_exact.h"
 #include "oracle.h"
-
-__extension__ typedef unsigned __int128 wide;
 
 /* Room for a product of 1000 doubles between 2^-30 and 1, or of 70 denormals. */
 enum { LIMBS = 3000, DIMS = 1000 };
@@ -40,11 +38,11 @@ static void nat_set(nat *a, uint64_t v)
 
 static void nat_times(nat *a, uint64_t m)
 {
-    wide carry = 0;
+    oracle_int carry = 0;
 
     for (size_t i = 0; i < a->used || carry > 0; i++, carry >>= 32) {
         if (i >= LIMBS) abort();
-        carry += (wide)a->limb[i] * m;
+        carry += (oracle_int)a->limb[i] * m;
         a->limb[i] = (uint32_t)carry;
         if (i >= a->used) a->used = i + 1;
     }
