@@ -70,7 +70,7 @@ typedef struct oracle_rng {
 /* The generator for set number `round` of a seed, so that one failing set can be
  * made again without those before it. */
 oracle_rng oracle_rng_start(uint64_t seed, uint64_t round);
-size_t oracle_below(oracle_rng *rng, size_t n);
+uint64_t oracle_below(oracle_rng *rng, uint64_t n);
 
 /* A multiple of 2^-bits in [0,1), bits <= 53. */
 double oracle_dyadic(oracle_rng *rng, unsigned bits);

@@ -6,9 +6,15 @@
 #ifndef __SIZEOF_INT128__
 #include <math.h>
 
+/* Passed as four words on the stack, which clang does not do with _BitInt. */
+typedef struct words {
+    uint64_t low;
+    int64_t high;
+} words;
+
 oracle_int __fixdfti(double v);
-double __floattidf(oracle_int v);
-long double __floattixf(oracle_int v);
+double __floattidf(words w);
+long double __floattixf(words w);
 
 oracle_int __fixdfti(double v)
 {
@@ -21,8 +27,9 @@ oracle_int __fixdfti(double v)
 
 /* The leading 63 bits, the last of them set where anything follows, round as all
  * of them would. */
-double __floattidf(oracle_int v)
+double __floattidf(words w)
 {
+    oracle_int v = (oracle_int)w.high * ((oracle_int)1 << 64) + w.low;
     oracle_int left = v < 0 ? -v : v;
     int shift = 0;
     bool more = false;
@@ -35,8 +42,8 @@ double __floattidf(oracle_int v)
 }
 
 /* Either half fits into the 64 bits of x87's format, so that one sum rounds. */
-long double __floattixf(oracle_int v)
+long double __floattixf(words w)
 {
-    return ldexpl((long double)(int64_t)(v >> 64), 64) + (long double)(uint64_t)v;
+    return ldexpl((long double)w.high, 64) + (long double)w.low;
 }
 #endif

@@ -137,8 +137,8 @@ answers() { # FOLDER OF TOOLS
             koksma-l2 -q "$set"
         done
         koksma-points halton -d 3 -n 50 --npy | od -An -tx1
-        koksma-points sobol -d 3 -n 50 --scramble owen --npy | koksma-star -q
-        koksma-star -q ../sets/*.npy
+        koksma-points sobol -d 3 -n 64 --scramble owen --npy | koksma-star -q
+        koksma-star -q little.npy
     ) 2>&1
 }
 
@@ -148,7 +148,7 @@ make_sets() { # by this machine's own build
     (
         PATH=$1:$PATH
         cd "$folder/sets" || exit 1
-        for family in halton sobol faure random; do
+        for family in halton rsequence random latin; do
             koksma-points $family -d 2 -n 200 >$family-2d.txt
             koksma-points $family -d 3 -n 60 >$family-3d.txt
         done

@@ -23,6 +23,10 @@ typedef struct nat {
     uint32_t limb[LIMBS];
 } nat;
 
+/* More points than these are not counted. */
+enum { N_BITS = SIZE_MAX > UINT32_MAX ? 51 : 31 };
+static const size_t N_MOST = (size_t)1 << N_BITS;
+
 /* (pos - neg) * 2^exp */
 typedef struct exact {
     long exp;
@@ -378,10 +382,11 @@ static void random_case(case_of *c, uint64_t round, size_t most)
 
     c->dim = 1 + oracle_below(&rng, most);
     if (kind >= 3 && c->dim > 60) c->dim = 60;
-    c->n = 1 + oracle_below(&rng, (size_t)1 << (1 + oracle_below(&rng, 50)));
+    c->n =
+        1 + oracle_below(&rng, (uint64_t)1 << (1 + oracle_below(&rng, N_BITS - 1)));
     if (kind == 0 && round % 2 == 0) {
         c->dim = 2;
-        c->n = ((size_t)1 << 51) - 1 - oracle_below(&rng, (size_t)1 << 49);
+        c->n = N_MOST - 1 - oracle_below(&rng, N_MOST / 4);
     }
     for (size_t k = 0; k < c->dim; k++)
         vol *= c->corner[k] = coordinate(&rng, kind);
@@ -409,7 +414,7 @@ START_TEST(deviations)
 
             for (size_t k = 0; k < c.dim; k++)
                 c.corner[k] = same[kind];
-            c.n = ((size_t)1 << 51) - c.dim;
+            c.n = N_MOST - c.dim;
             c.inside = kind % 2 == 0 ? c.n : 0;
             check_case(&c, "same");
         }
@@ -454,7 +459,9 @@ START_TEST(exact_numbers_stay_single)
 
     for (int i = 0; i < 1000; i++) {
         double x = i == 0 ? 1.0 - 0x1p-53 : oracle_dyadic(&rng, 53);
-        size_t n = i == 0 ? 3 : 1 + oracle_below(&rng, (size_t)1 << (1 + i % 50));
+        size_t n =
+            i == 0 ? 3
+                   : 1 + oracle_below(&rng, (uint64_t)1 << (1 + i % (N_BITS - 1)));
         koksma_interval v = ki_deviation(-1.0, 0, n, ki_volume(&x, 1));
 
         ck_assert_msg(v.lower == x && v.upper == x, "%a, n %zu: [%a, %a]", x, n,
