@@ -9,7 +9,9 @@
  * with a = ceil(2^53 s/m) and b = ceil(2^53 (s+1)/m), so that no rounding moves a
  * point out of it. */
 
-static uint64_t first_in(uint64_t s, uint64_t m)
+/* Not inline: clang for 32 bits would take two such divisions for one of vectors,
+ * which its run-time library lacks. */
+__attribute__((noinline)) static uint64_t first_in(uint64_t s, uint64_t m)
 {
     return (uint64_t)(((ki_u128)s * KI_EXACT + (m - 1)) / m);
 }

@@ -6,12 +6,11 @@
 
 #include "error.h"
 #include "io_kernels.h"
+#include "num_wide.h"
 
 /* Decimal to double and back: strtod and snprintf, with an exact short cut each
  * for the numbers that point sets are made of.  The short cuts work in 128-bit
  * integers, so that there is one rounding, and that one is seen. */
-
-__extension__ typedef unsigned __int128 u128;
 
 static const uint64_t power[20] = {1u,
                                    10u,
@@ -41,14 +40,14 @@ static const uint64_t power[20] = {1u,
 static double quotient(uint64_t digits, unsigned decimals)
 {
     int shift = __builtin_clzll(digits) + 64;
-    u128 top = (u128)digits << shift;
-    u128 q = top / power[decimals];
+    ki_u128 top = (ki_u128)digits << shift;
+    ki_u128 q = top / power[decimals];
     bool more = q * power[decimals] != top;
     int extra = 0;
 
     if ((uint64_t)(q >> 64) != 0) extra = 64 - __builtin_clzll((uint64_t)(q >> 64));
     uint64_t head = (uint64_t)(q >> extra);
-    if (more || ((u128)head << extra) != q) head |= 1;
+    if (more || ((ki_u128)head << extra) != q) head |= 1;
     return ldexp((double)head, extra - shift);
 }
 
@@ -88,11 +87,12 @@ const char *ki_number_read(const char *text, double *v)
 static uint64_t decimal(uint64_t m, int s, int q, int digits)
 {
     int scale = digits - 1 - q;
-    u128 unit = scale < 20 ? power[scale] : (u128)power[19] * 10u;
-    u128 exact = m * unit, half = (u128)1 << (s - 1), rest = exact & (2 * half - 1);
+    ki_u128 unit = scale < 20 ? power[scale] : (ki_u128)power[19] * 10u;
+    ki_u128 exact = m * unit, half = (ki_u128)1 << (s - 1),
+            rest = exact & (2 * half - 1);
     uint64_t d = (uint64_t)(exact >> s);
     bool up = rest > half || (rest == half && d % 2 == 1); /* ties to even */
-    u128 off = up ? 2 * half - rest : rest;
+    ki_u128 off = up ? 2 * half - rest : rest;
 
     d += up;
     if (d < power[digits - 1] || d >= power[digits]) return 0;

@@ -3,13 +3,13 @@
 #include <math.h>
 #include <stdbool.h>
 
+#include "num_wide.h"
+
 /* |v| = mantissa 2^(exponent - 53), the mantissa below 2^53. */
 static uint64_t take_apart(double v, int *exponent)
 {
     return (uint64_t)ldexp(frexp(fabs(v), exponent), 53);
 }
-
-__extension__ typedef unsigned __int128 two_words;
 
 /* Add three words from word i on, and the carry as far as it goes; or take them
  * away. */
@@ -18,8 +18,8 @@ static void add_words(ki_wide *sum, const uint64_t *words, int i, bool minus)
     bool carry = false;
 
     for (int j = 0; i + j < KI_WIDE_WORDS && (j < 3 || carry); j++) {
-        two_words old = sum->word[i + j], word = j < 3 ? words[j] : 0;
-        two_words now = minus ? old - word - carry : old + word + carry;
+        ki_u128 old = sum->word[i + j], word = j < 3 ? words[j] : 0;
+        ki_u128 now = minus ? old - word - carry : old + word + carry;
 
         sum->word[i + j] = (uint64_t)now;
         carry = now >> 64 & 1;
@@ -31,7 +31,7 @@ static void add_words(ki_wide *sum, const uint64_t *words, int i, bool minus)
 void ki_wide_add(ki_wide *sum, double a, double b)
 {
     int ea, eb;
-    two_words product = take_apart(a, &ea);
+    ki_u128 product = take_apart(a, &ea);
     uint64_t words[3];
 
     if (a == 0.0 || b == 0.0) return;

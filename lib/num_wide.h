@@ -5,8 +5,13 @@
 #include <stdint.h>
 #include <string.h>
 
-/* Private: products of 64-bit numbers, for what is decided in integers. */
+/* Private: products of 64-bit numbers, for what is decided in integers.  Compilers
+ * have them under either name, for 32 bits under that of C23 alone. */
+#ifdef __SIZEOF_INT128__
 __extension__ typedef unsigned __int128 ki_u128;
+#else
+__extension__ typedef unsigned _BitInt(128) ki_u128;
+#endif
 
 /* x k as an integer and whether something is left over. */
 typedef struct ki_multiple {

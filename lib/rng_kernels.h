@@ -1,6 +1,7 @@
 #ifndef KI_RNG_KERNELS_H
 #define KI_RNG_KERNELS_H
 
+#include "num_wide.h"
 #include "rng.h"
 
 /* Private: the generator of rng.h in the open, for loops that take millions of
@@ -29,9 +30,7 @@ static inline uint64_t ki_rng_at(koksma_rng r, uint64_t i)
  * by at most one part in 2^64/n. */
 static inline uint64_t ki_rng_scale(uint64_t bits, uint64_t n)
 {
-    __extension__ typedef unsigned __int128 wide;
-
-    return (uint64_t)((wide)bits * n >> 64);
+    return (uint64_t)((ki_u128)bits * n >> 64);
 }
 
 /* The first 53 of 64 binary places behind the point. */

@@ -27,7 +27,8 @@ EXTRA_DIST += $(structure_scripts) %D%/cli_rows.sh %D%/replay.sh %D%/corpus
 if HAVE_CHECK
 check_LTLIBRARIES += %D%/liboracle.la
 %C%_liboracle_la_SOURCES = \
-  %D%/alloc_fixture.h %D%/oracle.c %D%/oracle.h %D%/edge_fixture.h %D%/fit_fixture.h %D%/gen_fixture.h \
+  %D%/alloc_fixture.h %D%/oracle.c %D%/oracle_wide.c %D%/oracle.h %D%/edge_fixture.h \
+  %D%/fit_fixture.h %D%/gen_fixture.h \
   %D%/integrand_fixture.h %D%/io_fixture.h %D%/paths.h \
   %D%/npy_fixture.h
 
@@ -99,6 +100,25 @@ check-threads:
 	  bin/koksma-points halton -d 4 -n 500 >points.txt && \
 	  bin/koksma-star -j 4 --trace points.txt && bin/koksma-star -j 4 points.txt
 
+# Other compilers, C libraries and machines, in ports/.
+.PHONY: check-ports
+EXTRA_DIST += %D%/ports.sh
+check-ports:
+	bash $(top_srcdir)/tests/ports.sh -o ports
+
+# Which lines of lib/ make check runs, in a build of its own, in coverage/.
+.PHONY: coverage
+EXTRA_DIST += %D%/coverage.sh
+COVERAGE_LEAST = 98
+coverage:
+	$(MKDIR_P) coverage
+	cd coverage && { test -f Makefile || \
+	  $(abs_top_srcdir)/configure --disable-shared CC='$(CC)' \
+	    CFLAGS='-O0 --coverage' koksma_cv_clones=no; } && \
+	  find . -name '*.gcda' -exec rm -f {} + && \
+	  CK_TIMEOUT_MULTIPLIER=10 $(MAKE) check && \
+	  $(SHELL) $(abs_top_srcdir)/tests/coverage.sh lib $(COVERAGE_LEAST)
+
 # ---- Fuzzing: the targets are replayed over the corpus in make check -----------
 
 fuzz_targets    = points npy table grid options
@@ -136,7 +156,7 @@ fuzz: $(BUILT_SOURCES)
 clean-local: clean-fuzz
 .PHONY: clean-fuzz
 clean-fuzz:
-	rm -rf fuzz sanitize threads
+	rm -rf coverage fuzz ports sanitize threads
 
 # ---- Benches ---------------------------------------------------------------------
 

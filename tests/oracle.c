@@ -351,10 +351,7 @@ oracle_rng oracle_rng_start(uint64_t seed, uint64_t round)
     return rng;
 }
 
-size_t oracle_below(oracle_rng *rng, size_t n)
-{
-    return (size_t)(next(rng) >> 11) % n;
-}
+uint64_t oracle_below(oracle_rng *rng, uint64_t n) { return (next(rng) >> 11) % n; }
 
 double oracle_dyadic(oracle_rng *rng, unsigned bits)
 {

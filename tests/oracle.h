@@ -16,7 +16,11 @@
  * Coordinates must be multiples of 2^-b with b*dim + log2(n) <= 120 (the oracle
  * finds b itself and aborts when there is none): every local discrepancy is then
  * an integer over n*2^(b*dim), and no comparison below rounds. */
+#ifdef __SIZEOF_INT128__
 __extension__ typedef __int128 oracle_int;
+#else
+__extension__ typedef _BitInt(128) oracle_int;
+#endif
 
 /* The number num / (n * 2^shift), which lies in [-1,1]. */
 typedef struct oracle_ratio {
@@ -66,7 +70,7 @@ typedef struct oracle_rng {
 /* The generator for set number `round` of a seed, so that one failing set can be
  * made again without those before it. */
 oracle_rng oracle_rng_start(uint64_t seed, uint64_t round);
-size_t oracle_below(oracle_rng *rng, size_t n);
+uint64_t oracle_below(oracle_rng *rng, uint64_t n);
 
 /* A multiple of 2^-bits in [0,1), bits <= 53. */
 double oracle_dyadic(oracle_rng *rng, unsigned bits);

@@ -2,5 +2,5 @@
 # The fuzz targets over the corpus: what once broke a reader stays mended.
 set -eu
 for target in points npy table grid options; do
-    "$top_builddir/tests/replay_$target" "$top_srcdir/tests/corpus/$target"
+    ${EMULATOR-} "$top_builddir/tests/replay_$target" "$top_srcdir/tests/corpus/$target"
 done

@@ -82,8 +82,8 @@ START_TEST(random_pairs)
             .dim = 1, .n = 1, .bases = &prime[oracle_below(&rng, 1000)]};
         double v;
 
-        o.start = (uint64_t)oracle_below(&rng, (size_t)1 << 32) << 32 |
-                  oracle_below(&rng, (size_t)1 << 32);
+        o.start = oracle_below(&rng, (uint64_t)1 << 32) << 32 |
+                  oracle_below(&rng, (uint64_t)1 << 32);
         o.start >>= oracle_below(&rng, 64);
         if (i % 100 == 0) o.start = UINT64_MAX - i;
         fill_all(&v, "halton", o);
@@ -125,7 +125,8 @@ START_TEST(ratios)
         p += oracle_below(&rng, 9);
         if (p > 8) p -= 4;
         if (i % 2 == 0) p -= (p >> 1) / (1 + oracle_below(&rng, 1000));
-        r = (ki_u128)oracle_below(&rng, (size_t)1 << 53) * (p / ((ki_u128)1 << 53));
+        r = (ki_u128)oracle_below(&rng, (uint64_t)1 << 53) *
+            (p / ((ki_u128)1 << 53));
         r += oracle_below(&rng, (size_t)(p < 1000 ? p : 1000));
         if (i % 4 == 1) r = p - 1 - r % p;
         r %= p;

@@ -123,10 +123,10 @@ START_TEST(nested_flips)
         size_t equal[64] = {0}, ones[64] = {0};
 
         for (uint64_t round = 0; round < 400; round++) {
-            uint64_t high = oracle_below(&rng, (size_t)1 << 32), y[2], flip[2];
+            uint64_t high = oracle_below(&rng, (uint64_t)1 << 32), y[2], flip[2];
 
             ki_owen_init(o, koksma_rng_seed(d, round));
-            y[0] = high << 32 | oracle_below(&rng, (size_t)1 << 32);
+            y[0] = high << 32 | oracle_below(&rng, (uint64_t)1 << 32);
             y[1] = y[0] ^ (uint64_t)1 << (63 - d);
             memcpy(flip, y, sizeof y);
             ki_owen_scramble(o, flip, 2);
@@ -161,11 +161,11 @@ START_TEST(nested_blocks)
     ki_owen_init(o, koksma_rng_seed(oracle_seed(), 3));
     for (size_t round = 0; round < 300; round++) {
         size_t count = round < 20 ? 256 - round : 1 + oracle_below(&rng, 256);
-        uint64_t rest = oracle_below(&rng, (size_t)1 << 56), was[KI_OWEN_RUN];
+        uint64_t rest = oracle_below(&rng, (uint64_t)1 << 56), was[KI_OWEN_RUN];
 
         if (round % 3 == 0) rest &= -rest;
         for (size_t i = 0; i < count; i++)
-            was[i] = y[i] = (uint64_t)oracle_below(&rng, 256) << 56 | rest;
+            was[i] = y[i] = oracle_below(&rng, 256) << 56 | rest;
         if (round % 2 == 0) was[count / 2] = y[count / 2] ^= oracle_below(&rng, 9);
         y[count] = 77;
         ki_owen_scramble(o, y, count);

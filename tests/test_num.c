@@ -11,8 +11,6 @@
 #include "num_twice.h"
 #include "oracle.h"
 
-__extension__ typedef unsigned __int128 wide;
-
 /* Room for a product of 1000 doubles between 2^-30 and 1, or of 70 denormals. */
 enum { LIMBS = 3000, DIMS = 1000 };
 
@@ -24,6 +22,10 @@ typedef struct nat {
     size_t used;
     uint32_t limb[LIMBS];
 } nat;
+
+/* More points than these are not counted. */
+enum { N_BITS = SIZE_MAX > UINT32_MAX ? 51 : 31 };
+static const size_t N_MOST = (size_t)1 << N_BITS;
 
 /* (pos - neg) * 2^exp */
 typedef struct exact {
@@ -40,11 +42,11 @@ static void nat_set(nat *a, uint64_t v)
 
 static void nat_times(nat *a, uint64_t m)
 {
-    wide carry = 0;
+    oracle_int carry = 0;
 
     for (size_t i = 0; i < a->used || carry > 0; i++, carry >>= 32) {
         if (i >= LIMBS) abort();
-        carry += (wide)a->limb[i] * m;
+        carry += (oracle_int)a->limb[i] * m;
         a->limb[i] = (uint32_t)carry;
         if (i >= a->used) a->used = i + 1;
     }
@@ -380,10 +382,11 @@ static void random_case(case_of *c, uint64_t round, size_t most)
 
     c->dim = 1 + oracle_below(&rng, most);
     if (kind >= 3 && c->dim > 60) c->dim = 60;
-    c->n = 1 + oracle_below(&rng, (size_t)1 << (1 + oracle_below(&rng, 50)));
+    c->n =
+        1 + oracle_below(&rng, (uint64_t)1 << (1 + oracle_below(&rng, N_BITS - 1)));
     if (kind == 0 && round % 2 == 0) {
         c->dim = 2;
-        c->n = ((size_t)1 << 51) - 1 - oracle_below(&rng, (size_t)1 << 49);
+        c->n = N_MOST - 1 - oracle_below(&rng, N_MOST / 4);
     }
     for (size_t k = 0; k < c->dim; k++)
         vol *= c->corner[k] = coordinate(&rng, kind);
@@ -411,7 +414,7 @@ START_TEST(deviations)
 
             for (size_t k = 0; k < c.dim; k++)
                 c.corner[k] = same[kind];
-            c.n = ((size_t)1 << 51) - c.dim;
+            c.n = N_MOST - c.dim;
             c.inside = kind % 2 == 0 ? c.n : 0;
             check_case(&c, "same");
         }
@@ -456,7 +459,9 @@ START_TEST(exact_numbers_stay_single)
 
     for (int i = 0; i < 1000; i++) {
         double x = i == 0 ? 1.0 - 0x1p-53 : oracle_dyadic(&rng, 53);
-        size_t n = i == 0 ? 3 : 1 + oracle_below(&rng, (size_t)1 << (1 + i % 50));
+        size_t n =
+            i == 0 ? 3
+                   : 1 + oracle_below(&rng, (uint64_t)1 << (1 + i % (N_BITS - 1)));
         koksma_interval v = ki_deviation(-1.0, 0, n, ki_volume(&x, 1));
 
         ck_assert_msg(v.lower == x && v.upper == x, "%a, n %zu: [%a, %a]", x, n,
