@@ -90,8 +90,8 @@ koksma_status koksma_edge(koksma_edge_result *out, koksma_points p,
                           const koksma_edge_opts *opts, koksma_error *err);
 
 /* Recount a half-plane: the interval, at most two units in the last place wide or
- * 2^-96, of count/n - area.  h->inside is not read.  p must have passed koksma_points_check
- * and have two coordinates.
+ * 2^-93, of count/n - area.  h->inside is not read.  p must have passed
+ * koksma_points_check and have two coordinates.
  *
  * Cost: n */
 koksma_interval koksma_half_plane_local(const koksma_half_plane *h,
