@@ -25,7 +25,8 @@ if HAVE_CHECK
 check_LTLIBRARIES += %D%/liboracle.la
 %C%_liboracle_la_SOURCES = \
   %D%/oracle.c %D%/oracle.h %D%/exact.c %D%/exact.h \
-  %D%/exact_oracle.c %D%/exact_oracle.h %D%/certify_fixture.h %D%/edge_fixture.h %D%/fit_fixture.h %D%/gen_fixture.h \
+  %D%/exact_oracle.c %D%/exact_oracle.h %D%/certify_fixture.h \
+  %D%/edge_fixture.h %D%/fit_fixture.h %D%/gen_fixture.h \
   %D%/integrand_fixture.h %D%/io_fixture.h %D%/paths.h \
   %D%/npy_fixture.h
 
@@ -41,7 +42,7 @@ unit_tests = \
   %D%/test_known %D%/test_l2 %D%/test_num %D%/test_part %D%/test_points \
   %D%/test_rng %D%/test_scene %D%/test_shapes %D%/test_split %D%/test_star %D%/test_star_bound %D%/test_star_lines \
   %D%/test_star_methods %D%/test_star_search %D%/test_star_threads \
-  %D%/test_bound %D%/test_variation
+  %D%/test_bound %D%/test_threads %D%/test_variation %D%/test_widths
 LDADD = %D%/liboracle.la lib/libcore.la $(CHECK_LIBS)
 
 
@@ -81,7 +82,8 @@ check-sanitize:
 # And another, in threads/: what runs in several threads at once, and nothing else,
 # since the thread sanitizer makes everything ten times as slow.  Cases tagged slow
 # are left out here too.
-THREAD_TESTS = %D%/test_box %D%/test_edge %D%/test_part %D%/test_star_threads
+THREAD_TESTS = %D%/test_box %D%/test_edge %D%/test_part %D%/test_star_threads \
+  %D%/test_threads
 check-threads:
 	$(MKDIR_P) threads
 	cd threads && { test -f Makefile || \
