@@ -109,10 +109,10 @@ koksma_status koksma_box_discrepancy(koksma_box_result *out, koksma_points p,
                                      const koksma_box_opts *opts,
                                      koksma_error *err);
 
-/* Recount a box: the interval, at most two units in the last place wide or 2^-100,
- * of vol - open/n or of closed/n - vol, by w->closed.  w->inside is not read.
- * p must have passed koksma_points_check and w->corners hold 2*dim numbers of [0,1]
- * with a_k <= b_k.
+/* Recount a box: the interval, at most two units in the last place wide or dim
+ * 2^-97, of vol - open/n or of closed/n - vol, by w->closed.  w->inside is not
+ * read. p must have passed koksma_points_check and w->corners hold 2*dim numbers of
+ * [0,1] with a_k <= b_k.
  *
  * Cost: n*dim */
 koksma_interval koksma_box_between(const koksma_box_witness *w, koksma_points p);

@@ -64,31 +64,33 @@ typedef struct koksma_edge_opts {
 
 /* Bound the half-plane discrepancy of p.
  *
- * Out:     out    value: exact but for rounding, a few units in the last place
- *                 wide, unless a tolerance is given; witness: the best half-plane,
- *                 of equally good ones that with the lexicographically least
- *                 (from, to), compared with twice the precision of a double (with
- *                 a tolerance: some half-plane).  from and to are the first and
- *                 the last of the points on the line; where it meets one alone,
- *                 the ends of the chord that this point halves
+ * Out:     out    value: exact but for rounding, one or two units in the last
+ *                 place wide, unless a tolerance is given; witness: the best
+ *                 half-plane, of equally good ones that with the
+ *                 lexicographically least (from, to), compared with twice the
+ *                 precision of a double (with a tolerance: some half-plane).
+ *                 from and to are the first and the last of the points on the
+ *                 line; where it meets one alone, the ends of the chord that
+ *                 this point halves
  *          err    filled on failure; may be NULL
  * In:      p      n < 2^31 points in [0,1]^2, ties and repeats allowed
  *          opts   NULL means KOKSMA_EDGE_DEFAULTS
- * Returns: KOKSMA_OK; KOKSMA_STOPPED when progress said so: value is then true, but
- *          wider; KOKSMA_EINVAL or KOKSMA_EDOMAIN as koksma_points_check, and for
- *          options out of range or dim other than 2; KOKSMA_ENOMEM
- * Cost:    sweep: n^2 log n.  tree: no useful bound, measured on Halton points
- *          about n^1.6; n^2 log n and more where very many points are on one line
- *          up to rounding, but not exactly.  Memory grows like n, for each thread
+ * Returns: KOKSMA_OK; KOKSMA_STOPPED when progress said so: value is then true,
+ *          but wider; KOKSMA_EINVAL or KOKSMA_EDOMAIN as koksma_points_check,
+ *          and for options out of range or dim other than 2; KOKSMA_ENOMEM
+ * Cost:    sweep: n^2 log n.  tree: measured on Halton points about n^1.6; it
+ *          hands over to the sweep when it has taken about as long, which happens
+ *          where points crowd on a line or in a spot.  Memory grows like n, for
+ *          each thread
  * Source:  the definition: [Dobkin, Eppstein, Mitchell 1996]; which lines matter is
  *          proven in lib/edge_kernels.h, the tree in lib/edge_tree.c and
  *          lib/edge_cell.c */
 koksma_status koksma_edge(koksma_edge_result *out, koksma_points p,
                           const koksma_edge_opts *opts, koksma_error *err);
 
-/* Recount a half-plane: the interval, a few units in the last place wide, of
- * count/n - area.  h->inside is not read.  p must have passed koksma_points_check
- * and have two coordinates.
+/* Recount a half-plane: the interval, at most two units in the last place wide or
+ * 2^-93, of count/n - area.  h->inside is not read.  p must have passed
+ * koksma_points_check and have two coordinates.
  *
  * Cost: n */
 koksma_interval koksma_half_plane_local(const koksma_half_plane *h,

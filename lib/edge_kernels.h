@@ -204,6 +204,8 @@ ki_edge_event *ki_edge_sort(ki_edge_event *a, ki_edge_event *b, size_t count);
 /* From a few points, climb to a good line: a first incumbent. */
 void ki_edge_climb(ki_edge_run *r, const ki_edge_points *p);
 
+/* All lines about all points: a stage of a run; and a run of that alone. */
+void ki_edge_sweep_all(ki_edge_run *r, const ki_edge_points *p);
 void ki_edge_sweep(ki_edge_run *r, const ki_edge_points *p);
 
 /* ---- The tree ----------------------------------------------------------- */

@@ -62,14 +62,7 @@ static void sweep_point(void *state, size_t worker, size_t i)
     all->work[worker] += 2.0 * (double)all->p->count;
 }
 
-static void sweep_stage(void *state)
-{
-    sweepers *all = state;
-
-    ki_team_run(all->run->team, all->p->count, sweep_point, all);
-}
-
-void ki_edge_sweep(ki_edge_run *r, const ki_edge_points *p)
+void ki_edge_sweep_all(ki_edge_run *r, const ki_edge_points *p)
 {
     size_t threads = ki_team_threads(r->team);
     sweepers all = {r, p, calloc(threads, sizeof *all.of),
@@ -78,11 +71,30 @@ void ki_edge_sweep(ki_edge_run *r, const ki_edge_points *p)
     if (all.of == NULL || all.work == NULL)
         ki_edge_give_up(r);
     else
-        ki_edge_run_stage(r, 1.0, sweep_stage, &all);
+        ki_team_run(r->team, p->count, sweep_point, &all);
     for (size_t i = 0; i < threads && all.of != NULL && all.work != NULL; i++) {
         ki_edge_sweeper_free(&all.of[i]);
         r->work += all.work[i];
     }
     free(all.of);
     free(all.work);
+}
+
+typedef struct whole {
+    ki_edge_run *run;
+    const ki_edge_points *p;
+} whole;
+
+static void stage(void *state)
+{
+    const whole *w = state;
+
+    ki_edge_sweep_all(w->run, w->p);
+}
+
+void ki_edge_sweep(ki_edge_run *r, const ki_edge_points *p)
+{
+    whole w = {r, p};
+
+    ki_edge_run_stage(r, 1.0, stage, &w);
 }

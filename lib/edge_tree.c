@@ -13,7 +13,13 @@
  *
  * and each half-plane is below a line of some pass, or is the complement of one
  * that is.  A cell is dropped when both are below the bar, looked at line by line
- * when m is small, and else cut into four. */
+ * when m is small, and else cut into four.
+ *
+ * Points in a narrow cluster stay together in all cells with a line through it, and
+ * where such lines have nearly the same area in many directions, as they have next
+ * to a corner of the square or to its middle lines, there are as many of these
+ * cells as the cluster is narrow.  So a tree that has taken more than the sweep
+ * would gives up, and the sweep does all. */
 
 enum { TASKS_ACROSS = 12, DEPTH = 40, LISTS = DEPTH + 1 };
 
@@ -24,6 +30,10 @@ typedef struct part {
     ki_edge_cell cell;
     double bound;
 } part;
+
+/* Steps after which a thread gives up: MORE n^2 of them take about as long as the
+ * sweep, and even sets of a hundred points and more take less than half. */
+static const double STEPS = 0x1p17, MORE = 8.0;
 
 /* A cell that was cut: its points, from `begin` on, and its parts still to visit.
  */
@@ -39,13 +49,15 @@ typedef struct worker {
     size_t room_x, room_y, room_w;
     ki_edge_sweeper sweeper;
     node path[DEPTH];
-    double work;
+    double work;  /* not yet reported */
+    double spent; /* in all */
 } worker;
 
 typedef struct tree {
     ki_edge_run *run;
     const ki_edge_points *p;
     worker *worker;
+    double most; /* that a thread may spend */
 } tree;
 
 /* No line of the cell meets the square with a slope of the pass. */
@@ -92,6 +104,12 @@ static double total(const ki_edge_list *l)
     return sum;
 }
 
+static void spend(worker *w, double work)
+{
+    w->work += work;
+    w->spent += work;
+}
+
 /* The parts of cell c that may be of interest, the best bound last.  Those of the
  * points of l that are below or above all of c are so of its parts. */
 static void cut(tree *t, worker *w, node *n, const ki_edge_cell *c,
@@ -101,7 +119,7 @@ static void cut(tree *t, worker *w, node *n, const ki_edge_cell *c,
     ki_edge_split s;
 
     ki_edge_cell_split(&s, c, l);
-    w->work += (double)l->count;
+    spend(w, (double)l->count);
     n->left = 0;
     for (int k = 0; k < KI_EDGE_PARTS; k++) {
         part new = {.cell = part_of(c, k)};
@@ -143,17 +161,19 @@ static bool visit(tree *t, worker *w, node *n, const ki_edge_cell *c,
     if (n->left == 0) return false;
     n->under = from->under;
     n->count = ki_edge_cell_keep(x, y, weight, &n->under, c, from);
-    w->work += (double)from->count;
+    spend(w, (double)from->count);
     l = list_of(t, w, n, from->pass);
     if (n->count > KI_EDGE_FEW && c->side > SIDE_LEAST) {
         ki_edge_pad(x, y, weight, n->count);
         n->all = total(&l);
         return true;
     }
-    if (n->count <= KI_EDGE_FEW)
+    if (n->count <= KI_EDGE_FEW) {
         ki_edge_leaf(t->run, &l, c);
-    else if (!ki_edge_leaf_many(&w->sweeper, t->run, &l, c))
-        ki_edge_give_up(t->run);
+        return false;
+    }
+    spend(w, (double)n->count * (double)n->count);
+    if (!ki_edge_leaf_many(&w->sweeper, t->run, &l, c)) ki_edge_give_up(t->run);
     return false;
 }
 
@@ -172,7 +192,7 @@ static void dive(tree *t, worker *w, int pass)
         }
         next = n->part[--n->left];
         if (!(next.bound > ki_edge_bar(t->run))) continue;
-        if (ki_edge_told_to_stop(t->run, &w->work)) return;
+        if (w->spent > t->most || ki_edge_told_to_stop(t->run, &w->work)) return;
         n[1].begin = n->begin + n->count + KI_EDGE_LANES;
         if (!make_room(t, w, n[1].begin + n->count)) {
             ki_edge_give_up(t->run);
@@ -196,7 +216,9 @@ static void work_task(void *state, size_t thread, size_t task)
                       -1.0 + side * (double)(place / TASKS_ACROSS), side};
     ki_edge_list l = ki_edge_whole(t->p, pass);
 
-    if (is_too_steep(&c) || ki_edge_told_to_stop(t->run, &w->work)) return;
+    if (is_too_steep(&c) || w->spent > t->most ||
+        ki_edge_told_to_stop(t->run, &w->work))
+        return;
     if (!make_room(t, w, l.count)) {
         ki_edge_give_up(t->run);
         return;
@@ -205,18 +227,24 @@ static void work_task(void *state, size_t thread, size_t task)
     if (visit(t, w, &w->path[0], &c, &l, (double)t->p->n)) dive(t, w, pass);
 }
 
+/* The sweep about all points leaves nothing out, whatever the tree has seen. */
 static void stage(void *state)
 {
     tree *t = state;
+    bool gave_up = false;
 
     ki_team_run(t->run->team, KI_EDGE_PASSES * TASKS_ACROSS * TASKS_ACROSS,
                 work_task, t);
+    for (size_t i = 0; i < ki_team_threads(t->run->team); i++)
+        gave_up = gave_up || t->worker[i].spent > t->most;
+    if (gave_up) ki_edge_sweep_all(t->run, t->p);
 }
 
 void ki_edge_tree(ki_edge_run *r, const ki_edge_points *p)
 {
     size_t threads = ki_team_threads(r->team);
-    tree t = {r, p, calloc(threads, sizeof *t.worker)};
+    double n = (double)p->count;
+    tree t = {r, p, calloc(threads, sizeof *t.worker), STEPS + MORE * n * n};
 
     if (t.worker == NULL) {
         ki_edge_give_up(r);

@@ -56,8 +56,9 @@ ki_twofold ki_volume_between(const double *a, const double *b, size_t dim);
 /* sign * (inside - n*vol), 0 <= inside <= n < 2^51: how many points too many. */
 ki_twofold ki_excess(double sign, size_t inside, size_t n, ki_twofold vol);
 
-/* The interval of a/n, rounded outward: at most two ulps wide, or 3 a.err/n where a
- * is nearly 0, and a single number when that is exact and a.err is 0. */
+/* The interval of a/n, rounded outward: at most two ulps wide, or 36 a.err/n where
+ * a is so nearly 0 that an ulp is below 8 a.err/n, and a single number when that is
+ * exact and a.err is 0. */
 koksma_interval ki_divide(ki_twofold a, size_t n);
 
 /* The interval of sign * (inside/n - vol): both of the above. */

@@ -111,8 +111,9 @@ typedef struct koksma_star_opts {
 koksma_status koksma_star(koksma_star_result *out, koksma_points p,
                           const koksma_star_opts *opts, koksma_error *err);
 
-/* Recount a box: the interval, at most two units in the last place wide, of
- * vol - open/n or of closed/n - vol, by box->closed.  box->inside is not read.
+/* Recount a box: the interval, at most two units in the last place wide or dim
+ * 2^-97, of vol - open/n or of closed/n - vol, by box->closed.  box->inside is not
+ * read.
  * p must have passed koksma_points_check and box->corner hold dim numbers.
  *
  * Cost: n*dim */

@@ -27,14 +27,15 @@ EXTRA_DIST += $(structure_scripts) %D%/cli_rows.sh %D%/replay.sh %D%/corpus
 if HAVE_CHECK
 check_LTLIBRARIES += %D%/liboracle.la
 %C%_liboracle_la_SOURCES = \
-  %D%/alloc_fixture.h %D%/oracle.c %D%/oracle_wide.c %D%/oracle.h %D%/edge_fixture.h \
+  %D%/alloc_fixture.h %D%/oracle.c %D%/oracle_wide.c %D%/oracle.h %D%/exact.c %D%/exact.h \
+  %D%/exact_oracle.c %D%/exact_oracle.h %D%/certify_fixture.h %D%/edge_fixture.h \
   %D%/fit_fixture.h %D%/gen_fixture.h \
   %D%/integrand_fixture.h %D%/io_fixture.h %D%/paths.h \
   %D%/npy_fixture.h
 
 unit_tests = \
   %D%/test_box %D%/test_box_bound \
-  %D%/test_cells %D%/test_cells_lines %D%/test_curve %D%/test_edge \
+  %D%/test_cells %D%/test_cells_lines %D%/test_certify %D%/test_curve %D%/test_edge \
   %D%/test_edge_cell %D%/test_extra %D%/test_facts %D%/test_fit %D%/test_fit_coverage \
   %D%/test_fit_judge %D%/test_fit_mixture %D%/test_fit_rules \
   %D%/test_fractals %D%/test_gen %D%/test_gen_digits %D%/test_gen_scramble \
@@ -44,7 +45,7 @@ unit_tests = \
   %D%/test_known %D%/test_l2 %D%/test_num %D%/test_part %D%/test_points \
   %D%/test_rng %D%/test_scene %D%/test_shapes %D%/test_split %D%/test_star %D%/test_star_bound %D%/test_star_lines \
   %D%/test_star_methods %D%/test_star_search %D%/test_star_threads \
-  %D%/test_bound %D%/test_variation
+  %D%/test_bound %D%/test_threads %D%/test_variation %D%/test_widths
 LDADD = %D%/liboracle.la lib/libcore.la $(CHECK_LIBS)
 
 
@@ -87,7 +88,8 @@ check-sanitize:
 # And another, in threads/: what runs in several threads at once, and nothing else,
 # since the thread sanitizer makes everything ten times as slow.  Cases tagged slow
 # are left out here too.
-THREAD_TESTS = %D%/test_box %D%/test_edge %D%/test_part %D%/test_star_threads
+THREAD_TESTS = %D%/test_box %D%/test_edge %D%/test_part %D%/test_star_threads \
+  %D%/test_threads
 check-threads:
 	$(MKDIR_P) threads
 	cd threads && { test -f Makefile || \

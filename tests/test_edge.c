@@ -328,6 +328,38 @@ START_TEST(tiny_coordinates)
 }
 END_TEST
 
+/* Points in a spot stay together in all cells of lines through it, and by a corner
+ * and the middle lines of the square there are very many of these that seem as good
+ * as any: the tree has to see that it is in vain. */
+START_TEST(crowded_in_a_spot)
+{
+    static const double spots[][2] = {
+        {0.0, 0.0}, {1.0, 0.0}, {0.5, 0.5}, {0.5, 0.3}};
+
+    for (size_t i = 0; i < 4; i++)
+        for (int down = 20; down <= 52; down += 16) {
+            double x[2 * FEW];
+            koksma_points p = {x, FEW, 2};
+            oracle_rng rng = oracle_rng_start(oracle_seed(), i);
+
+            for (size_t j = 0; j < 2 * FEW; j++) {
+                double off = ldexp(oracle_dyadic(&rng, 53), -down);
+                double spot = spots[i][j % 2];
+
+                x[j] = spot > 0.5 ? spot - off : spot + off;
+                if (j >= FEW + 6) x[j] = oracle_dyadic(&rng, 53);
+            }
+
+            koksma_edge_result sweep = solve(p, KOKSMA_EDGE_SWEEP, 1);
+            koksma_edge_result tree = solve(p, KOKSMA_EDGE_TREE, 1);
+            koksma_edge_result two = solve(p, KOKSMA_EDGE_TREE, 2);
+
+            ck_assert(same(&sweep, &tree) && same(&sweep, &two));
+            ck_assert_double_le(tree.work, 0x1p19);
+        }
+}
+END_TEST
+
 /* ---- Larger sets -------------------------------------------------------- */
 
 static const struct source {
@@ -553,6 +585,7 @@ int main(void)
     tcase_add_test(tc, almost_in_line);
     tcase_add_test(tc, in_line_but_not_in_doubles);
     tcase_add_test(tc, tiny_coordinates);
+    tcase_add_test(tc, crowded_in_a_spot);
     tcase_add_test(tc, methods_agree);
     tcase_add_test(tc, symmetries);
     tcase_add_test(tc, tolerance_and_stages);
