@@ -21,7 +21,7 @@ set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 : "${BENCH_RUN:=$PWD/tests/bench_run}" "${PEER_SECONDS:=60}"
 : "${PEER_SETS=halton -d 2 -n 1000 --start 1; halton -d 2 -n 10000 --start 1;
-  halton -d 3 -n 1000 --start 1; sobol -d 8 -n 256; sobol -d 20 -n 2048; centred -d 1 -n 10000;
+  halton -d 3 -n 1000 --start 1; sobol -d 8 -n 256; random -d 20 -n 200; centred -d 1 -n 10000;
   centred -d 1 -n 100000; halton -d 2 -n 100000 --start 1}"
 programs="${PEERS-};${PEER_DEM+dem=$PEER_DEM %d %n %f};${PEER_TA+ta=$PEER_TA %d %n %f}"
 scratch=$(mktemp -d)

@@ -1,6 +1,8 @@
 #!/bin/sh
-# trade_plot.sh TABLES FOLDER [KNOB]...: a figure a knob, or those named, FOLDER/KNOB.png and .svg, by gnuplot
-# (or what GNUPLOT names) from the tables of trade.sh and bench_radical in TABLES.
+# trade_plot.sh TABLES FOLDER [KNOB]...: a figure a knob, or those named,
+# FOLDER/KNOB.png and .svg, by gnuplot (or what GNUPLOT names) from the tables of
+# trade.sh and bench_radical in TABLES.
+# shellcheck disable=SC2016 # what is in single quotes is for awk and gnuplot
 set -eu
 tables=$(cd "$1" && pwd)
 mkdir -p "$2"
