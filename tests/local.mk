@@ -160,7 +160,8 @@ CLEANFILES     += $(benches)
 check_PROGRAMS += %D%/bench_run
 %C%_bench_run_SOURCES = %D%/bench_run.c %D%/bench.h
 %C%_bench_run_LDADD   =
-EXTRA_DIST += %D%/trade.sh %D%/trade_plot.sh %D%/peers.sh %D%/peers.py
+EXTRA_DIST += %D%/trade.sh %D%/trade_plot.sh %D%/trade_report.sh \
+  %D%/peers.sh %D%/peers.py
 
 # The tools themselves: libtool's scripts in front of them take longer to start.
 bench_env = \
@@ -173,9 +174,9 @@ bench_env = \
 .PHONY: bench trade bench-peers
 bench: $(benches) trade-tables
 	for bench in $(benches); do \
-	  table=bench/$${bench#*/bench_}.tsv; \
-	  { ./$$bench && : >bench/done; } | tee $$table; \
-	  rm bench/done || exit 1; \
+	  rm -f bench/done; \
+	  { ./$$bench && : >bench/done; } | tee bench/$${bench#*/bench_}.tsv; \
+	  rm bench/done 2>/dev/null || exit 1; \
 	done
 
 # What every knob costs and buys: tables in bench/, pictures of them in trade/.
@@ -184,6 +185,7 @@ trade-tables: all %D%/bench_run %D%/bench_radical
 	$(MKDIR_P) bench
 	$(bench_env) $(SHELL) $(srcdir)/%D%/trade.sh bench
 	%D%/bench_radical >bench/radical.tsv
+	$(SHELL) $(srcdir)/%D%/trade_report.sh bench
 trade: trade-tables
 	@if test '$(GNUPLOT)' = :; then \
 	  echo "No pictures: gnuplot, which draws them, is not installed."; \

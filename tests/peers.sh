@@ -1,9 +1,10 @@
 #!/bin/sh
 # peers.sh: other programs beside ours, on the same points.  A row each; in the column
 # error, by how much a value misses our certified interval, as a share of it: 0
-# inside, negative if it is too small.  Seconds are CPU seconds of one thread, without
-# the start of Python and its reading; MiB the peak of the whole process.  What is not
-# installed is skipped in one line.
+# inside, negative if it is too small.  Seconds are CPU seconds of one thread: of
+# SciPy and OpenTURNS those of the call alone, of all others those of the whole
+# command, with its start and its reading.  MiB is the peak of the whole process.
+# What is not installed is skipped in one line.
 #
 # In the environment:
 #   PEER_SETS      words for koksma-points, sets apart by ";"
@@ -22,7 +23,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 : "${BENCH_RUN:=$PWD/tests/bench_run}" "${PEER_SECONDS:=60}"
 : "${PEER_SETS=halton -d 2 -n 1000 --start 1; halton -d 2 -n 10000 --start 1;
   halton -d 3 -n 1000 --start 1; sobol -d 8 -n 256; random -d 20 -n 200; centred -d 1 -n 10000;
-  centred -d 1 -n 100000; halton -d 2 -n 100000 --start 1}"
+  centred -d 1 -n 100000}"
 programs="${PEERS-};${PEER_DEM+dem=$PEER_DEM %d %n %f};${PEER_TA+ta=$PEER_TA %d %n %f}"
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
