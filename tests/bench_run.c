@@ -24,7 +24,7 @@ static double seconds(struct timeval t)
 
 static int run(char **command)
 {
-    int status;
+    int status = 0;
     pid_t child = fork();
 
     if (child == 0) {
@@ -41,7 +41,7 @@ int main(int argc, char **argv)
     double started = wall();
     struct rusage u;
     FILE *file;
-    int status;
+    int status = 0;
 
     bench_must(argc < 3, "a file and a command");
     status = run(argv + 2);
