@@ -84,6 +84,7 @@ star() { # KNOB TITLE LETTER
 $log_axes; $seconds; $width
 set title 'koksma-star $3: $2'
 set yrange [$least / 1.3:]
+set key bottom left
 plot $(each '*' 'using 3:6 with linespoints') $(labels '*' "3:6:(strcol(2))")
 END
 }
