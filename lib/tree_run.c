@@ -92,7 +92,7 @@ static void run_stage(ki_run *r, double factor, ki_run_stage *stage, void *state
  * what is dealt to them must not depend on what one of them has found. */
 void ki_run_stages(ki_run *r, ki_run_stage *stage, void *state)
 {
-    static const double stages[] = {1.0, 0.5, 0.25, 0.1, 0.05};
+    static const double stages[] = {7.0, 3.0, 1.0, 0.5, 0.25, 0.1, 0.05};
     double tolerance = r->opts.tolerance;
 
     if (r->opts.anytime && r->opts.parts <= 1)

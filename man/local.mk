@@ -4,6 +4,7 @@ dist_man_MANS += \
   %D%/koksma-eval.1 %D%/koksma-fit.1 %D%/koksma-l2.1 %D%/koksma-plot.1 \
   %D%/koksma-points.1 \
   %D%/koksma-star.1 \
+  %D%/koksma-trade.7 \
   %D%/koksma-variation.1 \
   %D%/koksma.3 \
   %D%/koksma_points.5 %D%/koksma_values.5 \

@@ -51,6 +51,10 @@ has why-sweep 0 'sweep (few corners)' 'koksma-points random -d 3 -n 5 | koksma-s
 has why-tree 0 'tree (more than three coordinates)' 'koksma-star -v points'
 has why-told 0 'tree (as told)' 'koksma-star -v -m tree few'
 
+t stages 0 " 8 4 2 1.5 1.25 1.1 1.05 1" "" "koksma-points sobol -d 5 -n 128 |
+    koksma-star --trace -m tree -j 1 |
+    awk '\$4 < 1 { printf \" %g\", \$4 / \$3 } END { print \"\" }'"
+
 # ---- Prefixes: each as a set of its own -----------------------------------------------
 
 t prefixes 0 "" "" '

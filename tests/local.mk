@@ -15,7 +15,8 @@ AM_TESTS_ENVIRONMENT = \
   PATH='$(abs_top_builddir)/bin':$$PATH; export PATH;
 
 structure_scripts = \
-  %D%/cli.sh %D%/cli_bound.sh %D%/cli_box.sh %D%/cli_cells.sh %D%/cli_edge.sh %D%/cli_faults.sh %D%/cli_plot.sh \
+  %D%/cli.sh %D%/cli_bound.sh %D%/cli_box.sh %D%/cli_cells.sh %D%/cli_edge.sh \
+  %D%/cli_faults.sh %D%/cli_peers.sh %D%/cli_plot.sh \
   %D%/cli_star.sh %D%/cli_variation.sh %D%/floors.sh %D%/headers.sh %D%/man.sh \
   %D%/names.sh \
   %D%/symbols.sh
@@ -166,7 +167,7 @@ benches = \
   %D%/bench_box %D%/bench_edge \
   %D%/bench_gen %D%/bench_io %D%/bench_star %D%/bench_star_trade \
   %D%/bench_star_plane %D%/bench_l2 %D%/bench_fit %D%/bench_integrand \
-  %D%/bench_cells %D%/bench_variation
+  %D%/bench_cells %D%/bench_variation %D%/bench_radical
 EXTRA_PROGRAMS += $(benches)
 CLEANFILES     += $(benches)
 %C%_bench_box_SOURCES = %D%/bench_box.c %D%/bench.h
@@ -194,6 +195,51 @@ CLEANFILES     += $(benches)
 %C%_bench_cells_SOURCES  = %D%/bench_cells.c %D%/bench.h
 %C%_bench_cells_LDADD    = lib/libcore.la
 
-.PHONY: bench
-bench: $(benches)
-	for bench in $(benches); do ./$$bench || exit 1; done
+%C%_bench_radical_SOURCES = %D%/bench_radical.c %D%/bench.h
+%C%_bench_radical_LDADD   = lib/libcore.la
+
+check_PROGRAMS += %D%/bench_run
+%C%_bench_run_SOURCES = %D%/bench_run.c %D%/bench.h
+%C%_bench_run_LDADD   =
+EXTRA_DIST += %D%/trade.sh %D%/trade_plot.sh %D%/trade_report.sh \
+  %D%/peers.sh %D%/peers.py
+
+# The tools themselves: libtool's scripts in front of them take longer to start.
+bench_env = \
+  BENCH_RUN='$(abs_builddir)/%D%/bench_run'; export BENCH_RUN; \
+  PATH='$(abs_top_builddir)/bin/.libs:$(abs_top_builddir)/bin':$$PATH; export PATH; \
+  LD_LIBRARY_PATH='$(abs_top_builddir)/lib/.libs':$$LD_LIBRARY_PATH; \
+  export LD_LIBRARY_PATH;
+
+# Each program's tables on the terminal and in bench/NAME.tsv.
+.PHONY: bench trade bench-peers
+bench: $(benches) trade-tables
+	for bench in $(benches); do \
+	  rm -f bench/done; \
+	  { ./$$bench && : >bench/done; } | tee bench/$${bench#*/bench_}.tsv; \
+	  rm bench/done 2>/dev/null || exit 1; \
+	done
+
+# What every knob costs and buys: tables in bench/, pictures of them in trade/.
+.PHONY: trade-tables
+trade-tables: all %D%/bench_run %D%/bench_radical
+	$(MKDIR_P) bench
+	$(bench_env) $(SHELL) $(srcdir)/%D%/trade.sh bench
+	%D%/bench_radical >bench/radical.tsv
+	$(SHELL) $(srcdir)/%D%/trade_report.sh bench
+trade: trade-tables
+	@if test '$(GNUPLOT)' = :; then \
+	  echo "No pictures: gnuplot, which draws them, is not installed."; \
+	else \
+	  GNUPLOT='$(GNUPLOT)' $(SHELL) $(srcdir)/%D%/trade_plot.sh bench trade; \
+	fi
+
+# Other programs on the same points; and GSL's and SciPy's generators beside ours.
+bench-peers: all %D%/bench_run %D%/bench_gen
+	$(bench_env) BENCH_GEN='$(abs_builddir)/%D%/bench_gen' \
+	  $(SHELL) $(srcdir)/%D%/peers.sh
+
+clean-local: clean-bench
+.PHONY: clean-bench
+clean-bench:
+	rm -rf bench trade
