@@ -24,14 +24,14 @@ EXTRA_DIST += $(structure_scripts) %D%/cli_rows.sh %D%/replay.sh %D%/corpus
 if HAVE_CHECK
 check_LTLIBRARIES += %D%/liboracle.la
 %C%_liboracle_la_SOURCES = \
-  %D%/oracle.c %D%/oracle.h %D%/edge_fixture.h %D%/fit_fixture.h %D%/gen_fixture.h \
+  %D%/oracle.c %D%/oracle.h %D%/edge_fixture.h %D%/extremes_fixture.h %D%/fit_fixture.h %D%/gen_fixture.h \
   %D%/integrand_fixture.h %D%/io_fixture.h %D%/paths.h \
   %D%/npy_fixture.h
 
 unit_tests = \
   %D%/test_box %D%/test_box_bound \
   %D%/test_cells %D%/test_cells_lines %D%/test_curve %D%/test_edge \
-  %D%/test_edge_cell %D%/test_extra %D%/test_facts %D%/test_fit %D%/test_fit_coverage \
+  %D%/test_edge_cell %D%/test_extremes %D%/test_extra %D%/test_facts %D%/test_fit %D%/test_fit_coverage \
   %D%/test_fit_judge %D%/test_fit_mixture %D%/test_fit_rules \
   %D%/test_fractals %D%/test_gen %D%/test_gen_digits %D%/test_gen_scramble \
   %D%/test_gen_lattice %D%/test_gen_nets %D%/test_gen_patterns \
