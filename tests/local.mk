@@ -28,25 +28,24 @@ EXTRA_DIST += $(structure_scripts) %D%/cli_rows.sh %D%/replay.sh %D%/corpus
 if HAVE_CHECK
 check_LTLIBRARIES += %D%/liboracle.la
 %C%_liboracle_la_SOURCES = \
-  %D%/alloc_fixture.h %D%/oracle.c %D%/oracle_wide.c %D%/oracle.h %D%/exact.c %D%/exact.h \
-  %D%/exact_oracle.c %D%/exact_oracle.h %D%/certify_fixture.h %D%/edge_fixture.h \
-  %D%/fit_fixture.h %D%/gen_fixture.h \
-  %D%/integrand_fixture.h %D%/io_fixture.h %D%/paths.h \
-  %D%/npy_fixture.h
+  %D%/alloc_fixture.h %D%/certify_fixture.h %D%/edge_fixture.h %D%/exact.c \
+  %D%/exact.h %D%/exact_oracle.c %D%/exact_oracle.h %D%/extremes_fixture.h \
+  %D%/fit_fixture.h %D%/gen_fixture.h %D%/integrand_fixture.h %D%/io_fixture.h \
+  %D%/npy_fixture.h %D%/oracle.c %D%/oracle.h %D%/oracle_wide.c %D%/paths.h
 
 unit_tests = \
-  %D%/test_box %D%/test_box_bound \
-  %D%/test_cells %D%/test_cells_lines %D%/test_certify %D%/test_curve %D%/test_edge \
-  %D%/test_edge_cell %D%/test_extra %D%/test_facts %D%/test_fit %D%/test_fit_coverage \
-  %D%/test_fit_judge %D%/test_fit_mixture %D%/test_fit_rules \
-  %D%/test_fractals %D%/test_gen %D%/test_gen_digits %D%/test_gen_scramble \
-  %D%/test_gen_lattice %D%/test_gen_nets %D%/test_gen_patterns \
-  %D%/test_integrand %D%/test_io %D%/test_io_npy %D%/test_io_npy_bad \
-  %D%/test_io_number %D%/test_io_reader %D%/test_io_table %D%/test_io_write \
-  %D%/test_known %D%/test_l2 %D%/test_num %D%/test_part %D%/test_points \
-  %D%/test_rng %D%/test_scene %D%/test_shapes %D%/test_split %D%/test_star %D%/test_star_bound %D%/test_star_lines \
-  %D%/test_star_methods %D%/test_star_search %D%/test_star_threads \
-  %D%/test_bound %D%/test_threads %D%/test_variation %D%/test_widths
+  %D%/test_bound %D%/test_box %D%/test_box_bound %D%/test_cells \
+  %D%/test_cells_lines %D%/test_certify %D%/test_curve %D%/test_edge \
+  %D%/test_edge_cell %D%/test_extra %D%/test_extremes %D%/test_facts %D%/test_fit \
+  %D%/test_fit_coverage %D%/test_fit_judge %D%/test_fit_mixture %D%/test_fit_rules \
+  %D%/test_fractals %D%/test_gen %D%/test_gen_digits %D%/test_gen_lattice \
+  %D%/test_gen_nets %D%/test_gen_patterns %D%/test_gen_scramble %D%/test_integrand \
+  %D%/test_io %D%/test_io_npy %D%/test_io_npy_bad %D%/test_io_number \
+  %D%/test_io_reader %D%/test_io_table %D%/test_io_write %D%/test_known %D%/test_l2 \
+  %D%/test_num %D%/test_part %D%/test_points %D%/test_rng %D%/test_scene \
+  %D%/test_shapes %D%/test_split %D%/test_star %D%/test_star_bound \
+  %D%/test_star_lines %D%/test_star_methods %D%/test_star_search \
+  %D%/test_star_threads %D%/test_threads %D%/test_variation %D%/test_widths
 LDADD = %D%/liboracle.la lib/libcore.la $(CHECK_LIBS)
 
 
