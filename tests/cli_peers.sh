@@ -1,8 +1,9 @@
 #!/bin/sh
 # The comparison with other programs: what it says of those that are absent, right,
 # wrong, slow (124, as timeout says) or broken.  Here they are all made up.
-peers=$(cd "${top_srcdir:=.}/tests" && pwd)/peers.sh
-BENCH_RUN=$(cd "${top_builddir:=.}/tests" && pwd)/bench_run
+: "${top_srcdir:=.}" "${top_builddir:=.}"
+peers=$(cd "$top_srcdir/tests" && pwd)/peers.sh
+BENCH_RUN=$(cd "$top_builddir/tests" && pwd)/bench_run
 . "$top_srcdir/tests/cli_rows.sh"
 
 unset BENCH_GEN PEER_SECONDS
