@@ -239,6 +239,6 @@ size_t ki_edge_cell_keep(double *x, double *y, double *w, double *under,
 enum { KI_EDGE_FEW = 6 };
 void ki_edge_leaf(ki_edge_run *r, const ki_edge_list *l, const ki_edge_cell *c);
 bool ki_edge_leaf_many(ki_edge_sweeper *s, ki_edge_run *r, const ki_edge_list *l,
-                       const ki_edge_cell *c);
+                       const ki_edge_cell *c, double *work);
 
 #endif

@@ -129,7 +129,7 @@ static bool are_in_line(const ki_edge_list *l, double *a, double *b)
 }
 
 bool ki_edge_leaf_many(ki_edge_sweeper *s, ki_edge_run *r, const ki_edge_list *l,
-                       const ki_edge_cell *c)
+                       const ki_edge_cell *c, double *work)
 {
     leaf f = begin(r, l, c);
     double a[2], b[2];
@@ -141,7 +141,9 @@ bool ki_edge_leaf_many(ki_edge_sweeper *s, ki_edge_run *r, const ki_edge_list *l
         return true;
     }
     if (!ki_edge_sweeper_grow(s, l->count)) return false;
-    for (size_t i = 0; i < l->count; i++)
+    for (size_t i = 0; i < l->count && !ki_edge_told_to_stop(r, work); i++) {
         ki_edge_sweep_about(s, r, l, i, c);
+        *work += (double)l->count;
+    }
     return true;
 }

@@ -360,6 +360,30 @@ START_TEST(crowded_in_a_spot)
 }
 END_TEST
 
+/* The same where there is nothing else, and the first lines that come to mind are
+ * bad. */
+START_TEST(nearly_at_one_place)
+{
+    enum { N = 70 };
+    double x[2 * N];
+    koksma_points p = {x, N, 2};
+
+    for (uint64_t round = 0; round < 2; round++) {
+        oracle_rng rng = oracle_rng_start(oracle_seed(), round);
+
+        for (size_t i = 0; i < 2 * N; i++)
+            x[i] =
+                0.25 + (double)oracle_below(&rng, 64) * (round ? 0x1p-53 : 0x1p-36);
+
+        koksma_edge_result sweep = solve(p, KOKSMA_EDGE_SWEEP, 1);
+        koksma_edge_result tree = solve(p, KOKSMA_EDGE_TREE, 1);
+
+        ck_assert(same(&sweep, &tree));
+        ck_assert_double_le(tree.work, 0x1p19);
+    }
+}
+END_TEST
+
 /* ---- Larger sets -------------------------------------------------------- */
 
 static const struct source {
@@ -586,6 +610,7 @@ int main(void)
     tcase_add_test(tc, in_line_but_not_in_doubles);
     tcase_add_test(tc, tiny_coordinates);
     tcase_add_test(tc, crowded_in_a_spot);
+    tcase_add_test(tc, nearly_at_one_place);
     tcase_add_test(tc, methods_agree);
     tcase_add_test(tc, symmetries);
     tcase_add_test(tc, tolerance_and_stages);
