@@ -25,7 +25,7 @@ if HAVE_CHECK
 check_LTLIBRARIES += %D%/liboracle.la
 %C%_liboracle_la_SOURCES = \
   %D%/oracle.c %D%/oracle.h %D%/exact.c %D%/exact.h \
-  %D%/exact_oracle.c %D%/exact_oracle.h %D%/certify_fixture.h \
+  %D%/exact_l2.c %D%/exact_oracle.c %D%/exact_oracle.h %D%/certify_fixture.h \
   %D%/edge_fixture.h %D%/fit_fixture.h %D%/gen_fixture.h \
   %D%/integrand_fixture.h %D%/io_fixture.h %D%/paths.h \
   %D%/npy_fixture.h
