@@ -64,7 +64,7 @@ unsigned exact_bits(const double *x, size_t count, unsigned bits)
     return bits;
 }
 
-/* ---- Absolute values --------------------------------------------------------- */
+/* ---- Absolute values ------------------------------------------------------- */
 
 static int order_abs(const exact_int *a, const exact_int *b)
 {
@@ -94,7 +94,7 @@ static exact_int combined(const exact_int *a, const exact_int *b, bool minus)
     return trimmed(s);
 }
 
-/* ---- Integers ---------------------------------------------------------------- */
+/* ---- Integers -------------------------------------------------------------- */
 
 int exact_sign(exact_int a) { return a.used == 0 ? 0 : a.negative ? -1 : 1; }
 
@@ -179,7 +179,7 @@ exact_int exact_shifted(exact_int a, unsigned bits)
     return trimmed(s);
 }
 
-/* ---- Ratios ------------------------------------------------------------------ */
+/* ---- Ratios ---------------------------------------------------------------- */
 
 int exact_ratio_order(exact_ratio r, exact_ratio s)
 {

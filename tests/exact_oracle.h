@@ -10,6 +10,9 @@
  * coordinates in more than two dimensions, these take all 53 bits. */
 enum { EXACT_POINTS = 32, EXACT_DIM = 4, EXACT_NUMBERS = EXACT_POINTS * EXACT_DIM };
 
+/* Aborts where there are more. */
+void exact_check(koksma_points p);
+
 /* D*, over all corners that 0, 1 and the coordinates make: (n+2)^dim of them. */
 exact_ratio exact_star(koksma_points p);
 

@@ -18,8 +18,7 @@ structure_scripts = \
   %D%/cli.sh %D%/cli_big.sh %D%/cli_bound.sh %D%/cli_box.sh %D%/cli_cells.sh \
   %D%/cli_edge.sh %D%/cli_faults.sh %D%/cli_peers.sh %D%/cli_plot.sh \
   %D%/cli_star.sh %D%/cli_variation.sh %D%/floors.sh %D%/headers.sh %D%/man.sh \
-  %D%/names.sh \
-  %D%/symbols.sh
+  %D%/names.sh %D%/symbols.sh
 TESTS      += $(structure_scripts) %D%/replay.sh
 EXTRA_DIST += $(structure_scripts) %D%/cli_rows.sh %D%/replay.sh %D%/corpus
 
@@ -29,9 +28,10 @@ if HAVE_CHECK
 check_LTLIBRARIES += %D%/liboracle.la
 %C%_liboracle_la_SOURCES = \
   %D%/alloc_fixture.h %D%/certify_fixture.h %D%/edge_fixture.h %D%/exact.c \
-  %D%/exact.h %D%/exact_oracle.c %D%/exact_oracle.h %D%/extremes_fixture.h \
-  %D%/fit_fixture.h %D%/gen_fixture.h %D%/integrand_fixture.h %D%/io_fixture.h \
-  %D%/npy_fixture.h %D%/oracle.c %D%/oracle.h %D%/oracle_wide.c %D%/paths.h
+  %D%/exact.h %D%/exact_l2.c %D%/exact_oracle.c %D%/exact_oracle.h \
+  %D%/extremes_fixture.h %D%/fit_fixture.h %D%/gen_fixture.h \
+  %D%/integrand_fixture.h %D%/io_fixture.h %D%/npy_fixture.h %D%/oracle.c \
+  %D%/oracle.h %D%/oracle_wide.c %D%/paths.h
 
 unit_tests = \
   %D%/test_bound %D%/test_box %D%/test_box_bound %D%/test_cells \

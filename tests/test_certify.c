@@ -44,8 +44,7 @@ static void check(const hard_set *s, const char *what, int how, koksma_interval 
     }
 }
 
-/* ---- Star and box ---------------------------------------------------------------
- */
+/* ---- Star and box ---------------------------------------------------------- */
 
 enum { ANY = INT_MAX }; /* of a width */
 
@@ -161,8 +160,39 @@ static void certify_recounts(const hard_set *s)
     }
 }
 
-/* ---- Edge
- * ------------------------------------------------------------------------ */
+/* A box whose volume is its share of the points but for a rounding, where all that
+ * the product of its sides has lost shows: j points in it, and n - j above it along
+ * the last axis. */
+static void certify_balanced(const hard_set *s)
+{
+    hard_set at = *s;
+    size_t dim = s->p.dim, last = dim - 1, n = s->p.n;
+    size_t j = 1 + oracle_below(&at.rng, n);
+    double corners[2 * EXACT_DIM] = {0.0}, *upper = corners + dim;
+    double share = (double)j / (double)n, width = (double)dim * 0x1p-97;
+    bool anchored = s->round % 3 == 0;
+
+    at.p.x = at.x;
+    for (size_t k = 0; k < dim; k++) {
+        if (!anchored) corners[k] = 0.125 * hard_any(&at.rng);
+        upper[k] = 1.0 - 0.25 * oracle_dyadic(&at.rng, 53);
+        if (k < last) share /= upper[k] - corners[k];
+    }
+    upper[last] = fmin(corners[last] + share, 1.0);
+    for (size_t i = 0; i < n * dim; i++)
+        at.x[i] = i % dim == last && i / dim >= j ? 1.0 : 0.125;
+
+    koksma_box box = {.corner = upper, .closed = s->round % 2 == 1};
+    koksma_box_witness w = {.corners = corners, .closed = box.closed};
+
+    if (anchored)
+        check_recount(&at, "a balanced box", koksma_box_local(&box, at.p),
+                      exact_local(at.p, NULL, upper, box.closed), width);
+    check_recount(&at, "a balanced box between", koksma_box_between(&w, at.p),
+                  exact_local(at.p, corners, upper, w.closed), width);
+}
+
+/* ---- Edge ------------------------------------------------------------------ */
 
 static koksma_interval edge_by(const hard_set *s, int method, double tolerance)
 {
@@ -215,8 +245,7 @@ static void certify_half_planes(const hard_set *s)
     }
 }
 
-/* ---- L2
- * -------------------------------------------------------------------------- */
+/* ---- L2 -------------------------------------------------------------------- */
 
 /* The greatest k. */
 static const double most_of[KOKSMA_L2_KINDS] = {1.0, 0.25,  0.5, 1.5,
@@ -267,8 +296,7 @@ static void certify_l2(const hard_set *s)
     }
 }
 
-/* ---- Variation
- * ------------------------------------------------------------------- */
+/* ---- Variation ------------------------------------------------------------- */
 
 /* Of the numbers as values of one coordinate: the sum of |f_(i+1) - f_i|. */
 static void certify_variation(const hard_set *s)
@@ -299,8 +327,7 @@ static void certify_variation(const hard_set *s)
           truth, 4);
 }
 
-/* ---- Sets
- * ------------------------------------------------------------------------- */
+/* ---- Sets ------------------------------------------------------------------ */
 
 static const struct shape {
     const char *name;
@@ -318,6 +345,9 @@ static const struct shape {
     {"recounts", certify_recounts, 2, 9, 150},
     {"recounts", certify_recounts, 3, 9, 150},
     {"recounts", certify_recounts, 4, 9, 150},
+    {"balanced", certify_balanced, 2, 9, 100},
+    {"balanced", certify_balanced, 3, 9, 300},
+    {"balanced", certify_balanced, 4, 9, 300},
     {"edge", certify_edge, 2, 9, 300},
     {"half-planes", certify_half_planes, 2, 9, 200},
     {"l2", certify_l2, 1, 12, 40},
