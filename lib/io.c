@@ -33,7 +33,7 @@ void koksma_reader_close(koksma_reader *r)
 /* The first byte tells .npy from text: it is no byte of ASCII. */
 static koksma_status look_at_first_byte(koksma_reader *r, koksma_error *err)
 {
-    int c = getc(r->lines.in);
+    int c = ki_read_char(r->lines.in);
 
     if (c == EOF && ferror(r->lines.in)) return ki_fail_read(err);
     r->started = true;

@@ -13,7 +13,11 @@
  * ones too); `#` starts a comment; CRLF is tolerated; a blank line ends a set, so
  * one stream can hold many.  Or NumPy's .npy, told by its first byte: float64 or
  * float32, either byte order, C or Fortran order, two axes; arrays one after the
- * other are sets.  Nothing is read twice and nothing depends on the locale. */
+ * other are sets.  Nothing is read twice and nothing depends on the locale.
+ *
+ * A signal that is caught without SA_RESTART does not end the reading where the C
+ * library is glibc, and of .npy anywhere; else it may, as KOKSMA_EIO.  It does end
+ * the writing, as KOKSMA_EIO: stdio drops what a failed write leaves. */
 
 /* ---- Reading --------------------------------------------------------------- */
 

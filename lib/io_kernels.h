@@ -43,6 +43,10 @@ static inline const char *ki_field_end(const char *s)
 /* Past a field's end and the comma behind it, if there is one; *comma says so. */
 const char *ki_next_field(const char *end, bool *comma);
 
+/* getc, and fread of bytes, which go on after a signal that is caught. */
+int ki_read_char(FILE *in);
+size_t ki_read_bytes(void *out, size_t size, FILE *in);
+
 /* "cannot read: " and why, by errno. */
 koksma_status ki_fail_read(koksma_error *err);
 

@@ -38,13 +38,73 @@ static koksma_status keep_comment(ki_lines *l, const char *comment,
     return KOKSMA_OK;
 }
 
+/* ---- Reads that a signal ends, which somebody catches: the next one goes on ----
+ */
+
+static bool read_again(FILE *in)
+{
+    if (!ferror(in) || errno != EINTR) return false;
+    clearerr(in);
+    return true;
+}
+
+int ki_read_char(FILE *in)
+{
+    int c;
+
+    do
+        c = getc(in);
+    while (c == EOF && read_again(in));
+    return c;
+}
+
+size_t ki_read_bytes(void *out, size_t size, FILE *in)
+{
+    size_t have = 0;
+
+    do
+        have += fread((char *)out + have, 1, size - have, in);
+    while (have < size && read_again(in));
+    return have;
+}
+
+#ifdef __GLIBC__
+enum {
+    KEEPS_PART = true
+}; /* getline returns what came before a read that failed */
+#else
+enum { KEEPS_PART = false }; /* or that may be lost */
+#endif
+
+/* getline, and through signals where that loses nothing. */
+static ssize_t read_line(ki_lines *l)
+{
+    ssize_t length = getline(&l->text, &l->room, l->in);
+    size_t have = length > 0 ? (size_t)length : 0;
+    int c = 0;
+
+    if (!KEEPS_PART || !read_again(l->in)) return length;
+    while (c != '\n' && (c = ki_read_char(l->in)) != EOF) {
+        if (ki_grow((void **)&l->text, &l->room, have + 2, 1) != 0) {
+            errno = ENOMEM;
+            return -1;
+        }
+        l->text[have++] = (char)c;
+        l->text[have] = '\0';
+    }
+    return have > 0 ? (ssize_t)have : -1;
+}
+
+/* ---- Lines ----------------------------------------------------------------------
+ */
+
 koksma_status ki_lines_next(ki_lines *l, bool *more, koksma_error *err)
 {
     ssize_t length;
     char *comment;
 
     errno = 0;
-    length = getline(&l->text, &l->room, l->in);
+    length = read_line(l);
     *more = length >= 0;
     /* Some systems' getline tells the stream, too, that memory is out. */
     if (length < 0 && errno == ENOMEM) return ki_fail_memory(err, "a line");

@@ -153,8 +153,10 @@ static size_t read_singles(koksma_reader *r, double *out, size_t count)
     size_t done = 0, got = BLOCK;
 
     for (; done < count && got == BLOCK; done += got) {
-        got = fread(block, sizeof *block,
-                    count - done < BLOCK ? count - done : BLOCK, r->lines.in);
+        size_t now = count - done < BLOCK ? count - done : BLOCK;
+
+        got =
+            ki_read_bytes(block, now * sizeof *block, r->lines.in) / sizeof *block;
         for (size_t i = 0; i < got; i++) {
             uint32_t bits;
 
@@ -173,7 +175,7 @@ static size_t read_items(koksma_reader *r, double *out, size_t count)
     size_t got;
 
     if (r->single) return read_singles(r, out, count);
-    got = fread(out, sizeof *out, count, r->lines.in);
+    got = ki_read_bytes(out, count * sizeof *out, r->lines.in) / sizeof *out;
     if (r->swapped) swap_bytes(out, got);
     return got;
 }
@@ -214,13 +216,13 @@ static koksma_status header_length(koksma_reader *r, size_t *length,
     unsigned char b[12];
     FILE *in = r->lines.in;
 
-    if (fread(b, 1, 10, in) != 10) return cut_short(r, err);
+    if (ki_read_bytes(b, 10, in) != 10) return cut_short(r, err);
     if (memcmp(b, MAGIC, sizeof MAGIC) != 0 || b[6] < 1 || b[6] > 3)
         return ki_fail(err, KOKSMA_EFORMAT, 0,
                        "this is not a .npy array of version 1 to 3");
     *length = b[8] + 256u * b[9];
     if (b[6] > 1) {
-        if (fread(b + 10, 1, 2, in) != 2) return cut_short(r, err);
+        if (ki_read_bytes(b + 10, 2, in) != 2) return cut_short(r, err);
         *length += 65536u * b[10] + 16777216u * b[11];
     }
     if (*length > HEADER_MOST)
@@ -253,7 +255,7 @@ koksma_status ki_npy_next(koksma_reader *r, koksma_error *err)
     size_t length = 0;
     koksma_status status;
     char *header;
-    int c = getc(r->lines.in);
+    int c = ki_read_char(r->lines.in);
 
     free(r->transposed);
     r->transposed = NULL;
@@ -265,7 +267,7 @@ koksma_status ki_npy_next(koksma_reader *r, koksma_error *err)
     if (status != KOKSMA_OK) return status;
     header = ki_alloc(length + 1, 1);
     if (header == NULL) return ki_fail_memory(err, "a .npy header");
-    if (fread(header, 1, length, r->lines.in) != length) {
+    if (ki_read_bytes(header, length, r->lines.in) != length) {
         free(header);
         return cut_short(r, err);
     }
