@@ -77,8 +77,10 @@ _Noreturn void cli_fail_as(const koksma_error *err)
 void cli_flush(void)
 {
     errno = 0;
-    if (fflush(stdout) != 0 || ferror(stdout))
-        cli_fail("standard output: cannot write: %s", strerror(errno));
+    if (fflush(stdout) == 0 && !ferror(stdout)) return;
+    /* What failed may have been an earlier write, which left nothing to flush. */
+    cli_fail("standard output: cannot write%s%s", errno != 0 ? ": " : "",
+             errno != 0 ? strerror(errno) : "");
 }
 
 _Noreturn void cli_finish(int status)
