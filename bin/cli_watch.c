@@ -30,14 +30,15 @@ void cli_watch_start(cli_watch *watch)
     struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = SA_RESTART};
 
     sigemptyset(&action.sa_mask);
-    interrupted = 0;
     sigaction(SIGINT, &action, NULL);
     watch->started = now();
 }
 
 void cli_watch_stop(const cli_watch *watch)
 {
-    signal(SIGINT, SIG_DFL);
+    /* After an interrupt the tool prints and leaves, unless the same one, sent
+     * twice, ends it before that. */
+    if (!interrupted) signal(SIGINT, SIG_DFL);
     if (watch->show && isatty(STDERR_FILENO)) putc('\n', stderr);
 }
 
