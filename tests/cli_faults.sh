@@ -1,0 +1,202 @@
+#!/bin/sh
+# The tools when the system fails them: outputs that take nothing, inputs that give
+# nothing, too little memory, signals.  Rows as in cli.sh.
+. "${top_srcdir:=.}/tests/cli_rows.sh"
+
+koksma-points random -d 2 -n 9 >few
+koksma-eval f2 few >values
+printf '# N error\n16 4\n32 2\n64 1\n128 .5\n' >table
+
+# ---- Outputs: a sentence or the system's signal, never silence ------------------
+
+# A pipe that nobody reads any more.
+mkfifo pipe
+exec 3<>pipe 4>pipe
+exec 3<&-
+
+while read -r name command; do
+    out="koksma-$name: standard output: cannot write:"
+    t "closed-$name" 1 "" "$out Bad file descriptor" "$command >&-"
+    t "pipe-$name" 141 "" "" "$command >&4"
+    t "pipe-ignored-$name" 1 "" "$out Broken pipe" "trap '' PIPE; $command >&4"
+    [ -w /dev/full ] &&
+        t "full-$name" 1 "" "$out No space left on device" "$command >/dev/full"
+done <<END
+points koksma-points halton -n 9
+star koksma-star few
+l2 koksma-l2 few
+box koksma-box few
+edge koksma-edge few
+eval koksma-eval f2 few
+error koksma-error values
+fit koksma-fit table
+variation koksma-variation f2 --cells 4
+cells koksma-cells ball
+bound koksma-bound f2
+END
+
+# More than a buffer holds, so that it is full in the middle; and so much that the last
+# byte alone finds it full, and the flush at the end nothing to write.
+koksma-points random -n 4 --replicates 100 >many
+koksma-eval f2 many >values
+if [ -w /dev/full ]; then
+    while read -r name command; do
+        t "full-in-the-middle-$name" 1 "" \
+            "koksma-$name: standard output: cannot write: No space left on device" \
+            "$command >/dev/full"
+    done <<END
+points koksma-points halton -n 2^12
+points koksma-points halton -n 2^12 --npy
+points koksma-points halton -n 2^12 --hex
+star koksma-star many
+eval koksma-eval f2 many
+error koksma-error values
+cells koksma-cells -m samples --occupancy many
+END
+    koksma-points grid -n 1 >f
+    size=$(koksma-star -q f f | wc -c) row=$((size / 2)) files=f
+    more=$((4096 + 1 - size))
+    while [ "$more" -ge "$row" ]; do
+        files="$files f" more=$((more - row))
+    done
+    last=$(printf 'f%0*d' "$more" 0)
+    [ "$more" -gt 0 ] || last=f
+    cp f last.copy && mv last.copy "$last"
+    t full-at-the-end 0 4097 "" "koksma-star -q $files $last | wc -c | tr -d ' '"
+    has full-at-the-end-said 1 'standard output: cannot write\(: No space left on device\)*$' \
+        "koksma-star -q $files $last >/dev/full"
+fi
+
+# A limit on the size of files is a signal, or where that is ignored a full disk.
+if (ulimit -f 8) 2>/dev/null; then
+    has file-limit 153 '' 'ulimit -f 8; koksma-points halton -n 1e4 >file; exit $?'
+    t file-limit-ignored 1 "" \
+        'koksma-points: standard output: cannot write: File too large' \
+        'trap "" XFSZ; ulimit -f 8; koksma-points halton -n 1e4 >file'
+fi
+
+# ---- Inputs ---------------------------------------------------------------------
+
+: >unreadable
+chmod 000 unreadable
+koksma-points halton -n 9 --npy | head -c 200 >cut.npy
+koksma-points halton -n 9 --npy | head -c 100 >cut-header.npy
+printf '0.5 0.25 1\n0.5 1e' >cut.txt
+printf '0.5 0.25 1\n0.5 0x1.8p' >cut-hex.txt
+mkdir folder
+
+while read -r name command; do
+    t "closed-in-$name" 1 "" \
+        "koksma-$name: standard input: cannot read: Bad file descriptor" "$command <&-"
+    t "folder-$name" 1 "" "koksma-$name: folder: Is a directory" "$command folder"
+    t "folder-in-$name" 1 "" "koksma-$name: standard input: Is a directory" "$command <folder"
+    t "no-file-$name" 1 "" "koksma-$name: none: No such file or directory" "$command none"
+    [ -e /proc/self/mem ] &&
+        t "broken-$name" 1 "" "koksma-$name: /proc/self/mem: cannot read: Input/output error" \
+            "$command /proc/self/mem"
+    [ -r unreadable ] ||
+        t "unreadable-$name" 1 "" "koksma-$name: unreadable: Permission denied" "$command unreadable"
+    has "cut-$name" 1 "koksma-$name: cut.txt:2: .*1e, not a " "$command cut.txt"
+    has "cut-hex-$name" 1 "koksma-$name: cut-hex.txt:2: .*0x1.8p, not a " "$command cut-hex.txt"
+    [ "$name" = fit ] && continue
+    t "cut-npy-$name" 1 "" "koksma-$name: cut.npy: the .npy array is cut short" "$command cut.npy"
+    t "cut-header-$name" 1 "" "koksma-$name: cut-header.npy: the .npy array is cut short" \
+        "$command cut-header.npy"
+done <<'END'
+star koksma-star
+l2 koksma-l2
+box koksma-box
+edge koksma-edge
+eval koksma-eval sum -q
+error koksma-error --exact 0 -q
+fit koksma-fit -x 1 -y 2
+variation koksma-variation
+cells koksma-cells -m samples
+END
+
+# ---- Memory: a sentence, and nothing half-written --------------------------------
+
+# Where there is such a limit and the programs start within it: under sanitizers they
+# do not.
+if (ulimit -v 60000 && koksma-star -V) >/dev/null 2>&1; then
+    # An array of as many points as are read of it.
+    koksma-points grid -n 1 --npy | head -c 128 |
+        sed 's/(1, 2), }       /(99999999, 2), }/' >header.npy
+    while read -r name command; do
+        has "memory-$name" 1 "^koksma-$name: .*not enough memory" "ulimit -v 60000; $command"
+    done <<'END'
+star cat header.npy /dev/zero | koksma-star
+l2 cat header.npy /dev/zero | koksma-l2
+box cat header.npy /dev/zero | koksma-box
+edge cat header.npy /dev/zero | koksma-edge
+cells cat header.npy /dev/zero | koksma-cells -m samples
+eval cat header.npy /dev/zero | koksma-eval f2 --npy
+points koksma-points latin -n 1e8
+points koksma-points poisson -n 1e8
+fit yes 1 1 | koksma-fit -x 1 -y 2
+bound yes 1 1 | koksma-bound f2 --observe -
+star tr '\0' 1 </dev/zero | koksma-star
+star tr '\0' '#' </dev/zero | koksma-star
+END
+fi
+
+# ---- Signals: what is printed is true, whenever they come --------------------------
+
+# So many moments for each tool, drawn from the seed.
+moments=$((${KOKSMA_TEST_SCALE:-1}))
+
+# interrupted NAME LOWER UPPER COMMAND: the interval in these columns has that of the
+# whole job in it.  As in any job in the background of a script, an interrupt before
+# the measure has begun is none.
+interrupted() {
+    name=$1 lower=$2 upper=$3 command=$4
+    eval "$command" >whole 2>/dev/null
+    draw='BEGIN { srand(seed); for (i = 0; i < n; i++) printf "%.3f\n", 0.04 + 0.2 * rand() }'
+    for delay in $(awk -v seed="${KOKSMA_TEST_SEED:-1}$lower" -v n="$moments" "$draw"); do
+        eval "$command" >out 2>err &
+        sleep "$delay"
+        { kill -INT $! && kill -INT $!; } 2>/dev/null
+        wait $!
+        status=$?
+        wrong=$(paste whole out | awk -v l="$lower" -v u="$upper" '
+            { columns = NF / 2; lower = $(columns + l); upper = $(columns + u) }
+            NF % 2 || lower == "" || lower + 0 > $u + 0 ||
+                (upper != "inf" && upper + 0 < $l + 0) { print }
+            END { if (NR != 1) print NR " rows" }')
+        [ "$status" -eq 0 ] && ! cmp -s whole out && wrong="not finished"
+        [ "$status" -ne 0 ] && [ "$status" -ne 3 ] && wrong="status $status"
+        [ "$status" -eq 3 ] && ! grep -q '^koksma-[a-z0-9]*: [^:]*$' err && wrong="no sentence"
+        [ -z "$wrong" ] && continue
+        failures=$((failures + 1))
+        echo "FAILED: interrupt-$name after $delay s: $command"
+        echo "$wrong"
+        cat whole out err
+    done
+}
+
+koksma-points random -d 9 -n 250 >star
+koksma-points random -d 4 -n 200 >box
+koksma-points random -n 20000 >edge
+koksma-points random -d 30 -n 9000 >l2
+interrupted star 3 4 'koksma-star -q -m tree star'
+interrupted star-stages 3 4 'koksma-star -q -m tree -t 1e6 star'
+interrupted star-search 3 4 'koksma-star -q -m search star'
+interrupted box 3 4 'koksma-box -q box'
+interrupted edge 3 4 'koksma-edge -q edge'
+interrupted l2 3 4 'koksma-l2 -q -m pairs l2'
+interrupted cells 5 6 'koksma-cells -q ball -d 3 -n 2^29'
+
+# A signal that nobody waits for ends a tool: while it reads, while it writes, and one
+# that asks it to end.  timeout sends an interrupt that is not ignored, and sends it
+# twice.
+if timeout --preserve-status 9 true 2>/dev/null; then
+    mkfifo stuck
+    exec 5<>stuck
+    now='timeout --preserve-status -s'
+    t interrupt-reading 130 "" "" "$now INT 0.1 koksma-star <&5"
+    t interrupt-writing 130 "" "" "$now INT 0.1 koksma-points halton -n 2^40 >&5"
+    t terminate 143 "" "" "$now TERM 0.1 koksma-l2 -m pairs l2"
+    has interrupt-twice 3 'inf$' "$now INT 0.2 koksma-l2 -q -m pairs l2"
+fi
+
+rows_end
