@@ -14,6 +14,7 @@ const char *ki_number_read(const char *text, double *v);
 /* Lines of text, without their ends and comments. */
 typedef struct ki_lines {
     FILE *in;
+    bool table; /* names are wanted */
     char *text; /* the line, cut before its comment, leading blanks still there */
     size_t room, number;
     char about[512];

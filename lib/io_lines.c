@@ -32,6 +32,7 @@ static koksma_status keep_comment(ki_lines *l, const char *comment,
         remember(l, comment + sizeof MARK - 1);
         return KOKSMA_OK;
     }
+    if (!l->table) return KOKSMA_OK;
     if (ki_grow((void **)&l->names, &l->room_names, length + 1, 1) != 0)
         return ki_fail_memory(err, "a comment");
     memcpy(l->names, comment, length + 1);

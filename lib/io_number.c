@@ -38,7 +38,7 @@ static const uint64_t power[20] = {1u,
  * quotient of digits, shifted to the top of 128 bits, has 63 bits or more; its
  * top 64, with a last bit that says whether anything follows, round to 53 as
  * the exact value would. */
-static double quotient(uint64_t digits, unsigned decimals)
+static double quotient(uint64_t digits, size_t decimals)
 {
     int shift = __builtin_clzll(digits) + 64;
     u128 top = (u128)digits << shift;
@@ -57,7 +57,7 @@ static const char *read_decimal(const char *text, double *v)
 {
     const char *s = text;
     uint64_t digits = 0;
-    unsigned count = 0, decimals = 0;
+    size_t count = 0, decimals = 0; /* which a line of 2^32 digits fits */
 
     for (; *s >= '0' && *s <= '9'; s++, count++)
         digits = digits * 10 + (uint64_t)(*s - '0');

@@ -162,7 +162,7 @@ koksma_status koksma_table_read(koksma_table *table, FILE *in, const char *x,
                                 const char *y, koksma_error *err)
 {
     koksma_table t = {0};
-    ki_lines lines = {.in = in};
+    ki_lines lines = {.in = in, .table = true};
     labels l = {0};
     ki_c_locale locale = ki_c_locale_enter();
     koksma_status status = read_rows(&t, &lines, &l, x, y, err);

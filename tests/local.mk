@@ -12,7 +12,7 @@ AM_TESTS_ENVIRONMENT = \
   PATH='$(abs_top_builddir)/bin':$$PATH; export PATH;
 
 structure_scripts = \
-  %D%/cli.sh %D%/cli_bound.sh %D%/cli_box.sh %D%/cli_cells.sh %D%/cli_edge.sh %D%/cli_faults.sh %D%/cli_plot.sh \
+  %D%/cli.sh %D%/cli_bound.sh %D%/cli_box.sh %D%/cli_cells.sh %D%/cli_big.sh %D%/cli_edge.sh %D%/cli_faults.sh %D%/cli_plot.sh \
   %D%/cli_star.sh %D%/cli_variation.sh %D%/floors.sh %D%/headers.sh %D%/man.sh \
   %D%/names.sh \
   %D%/symbols.sh
