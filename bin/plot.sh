@@ -107,10 +107,16 @@ esac
 command -v gnuplot >/dev/null 2>&1 ||
     fail "gnuplot, which draws the pictures, is not installed"
 for file; do
-    [ "$file" = - ] && continue
+    if [ "$file" = - ]; then
+        true 2>/dev/null 3<&0 || fail "standard input: cannot read"
+        [ ! -d /dev/stdin ] || fail "standard input: Is a directory"
+        continue
+    fi
     [ -e "$file" ] || fail "$file: No such file or directory"
     [ ! -d "$file" ] || fail "$file: Is a directory"
 done
+
+[ -n "$output" ] || true 2>/dev/null 3>&1 || fail "standard output: cannot write"
 
 # ---- Tables to a gnuplot script, and that to a picture ------------------------------
 

@@ -113,8 +113,12 @@ t failing 1 "" "koksma-plot: gnuplot failed: line 0: trouble" 'koksma-plot -o ha
 t failing-leaves-nothing 0 "" "" '[ ! -e half.svg ]'
 printf '#!/bin/sh\nyes\n' >echoing/gnuplot
 t closed-pipe 0 "y" "" 'koksma-plot summary | head -n 1'
+printf '#!/bin/sh\ncat\n' >echoing/gnuplot
+t closed-out 1 "" "koksma-plot: standard output: cannot write" 'koksma-plot summary >&-'
+t closed-in 1 "" "koksma-plot: standard input: cannot read" 'koksma-plot <&-'
+t folder-in 1 "" "koksma-plot: standard input: Is a directory" 'koksma-plot <.'
+t closed-in-unread 0 "" "" 'koksma-plot summary <&- >/dev/null'
 if [ -w /dev/full ]; then
-    printf '#!/bin/sh\ncat\n' >echoing/gnuplot
     t full-disk 1 "" "koksma-plot: standard output: cannot write" 'koksma-plot summary >/dev/full'
 fi
 
