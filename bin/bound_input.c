@@ -35,13 +35,16 @@ static text read_text(const char *file)
         if (t.size + 4096 > room) {
             room = 2 * room + 8192;
             t.bytes = realloc(t.bytes, room);
-            if (t.bytes == NULL) cli_fail("not enough memory for %s", file);
+            if (t.bytes == NULL)
+                cli_fail("not enough memory for %s",
+                         standard ? "standard input" : file);
         }
         got = fread(t.bytes + t.size, 1, 4096, in);
         t.size += got;
     }
     if (in == NULL || ferror(in)) {
-        snprintf(err.text, sizeof err.text, "%s", strerror(errno));
+        snprintf(err.text, sizeof err.text, "%s%s",
+                 in != NULL ? "cannot read: " : "", strerror(errno));
         fail(&t, &err);
     }
     if (!standard) fclose(in);
