@@ -1,6 +1,7 @@
 #include "variation_run.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <math.h>
 #include <signal.h>
 #include <stdlib.h>
@@ -49,12 +50,27 @@ static pid_t fork_or_fail(void)
     return id;
 }
 
+/* A pipe whose ends are none of the standard streams, of which some may be closed.
+ */
+static void make_pipe(int ends[2])
+{
+    if (pipe(ends) != 0) cli_fail("cannot make a pipe: %s", strerror(errno));
+    for (int i = 0; i < 2; i++) {
+        int old = ends[i];
+
+        if (old > STDERR_FILENO) continue;
+        ends[i] = fcntl(old, F_DUPFD, STDERR_FILENO + 1);
+        if (ends[i] < 0) cli_fail("cannot make a pipe: %s", strerror(errno));
+        close(old);
+    }
+}
+
 static void start(run *r)
 {
     int nodes[2], values[2];
 
-    if (pipe(nodes) != 0 || pipe(values) != 0)
-        cli_fail("cannot make a pipe: %s", strerror(errno));
+    make_pipe(nodes);
+    make_pipe(values);
     r->program = fork_or_fail();
     if (r->program == 0) {
         dup2(nodes[0], STDIN_FILENO);

@@ -61,6 +61,8 @@ t other-tool 0 "" "" \
      koksma-variation f3 --cells 16 --faces >2; sed 1d 1 >3; sed 1d 2 | diff 3 -'
 t large-batch 0 "2${tab}512" "" \
     'koksma-variation -d 2 --run "koksma-eval halfspace -q" --cells 512 -q | cut -f 1,2'
+t closed-in 0 "2${tab}8" "" \
+    'koksma-variation -d 2 --run "awk \"{ print \\\$1 * \\\$2 }\"" -q <&- | cut -f 1,2'
 t rounds 0 "25 81 289" "" \
     'koksma-variation -d 2 --cells 16 >/dev/null \
          --run "tee p | koksma-eval halfspace; wc -l <p >>sizes"; echo $(cat sizes)'
