@@ -113,6 +113,10 @@ fit koksma-fit -x 1 -y 2
 variation koksma-variation
 cells koksma-cells -m samples
 END
+out="koksma-bound: standard input: cannot read:"
+t closed-in-bound 1 "" "$out Bad file descriptor" 'koksma-bound f2 - <&-'
+t closed-in-observe 1 "" "$out Bad file descriptor" 'koksma-bound f2 --observe - <&-'
+t folder-in-bound 1 "" "$out Is a directory" 'koksma-bound f2 - <folder'
 
 # ---- Memory: a sentence, and nothing half-written --------------------------------
 
@@ -196,7 +200,9 @@ if timeout --preserve-status 9 true 2>/dev/null; then
     t interrupt-reading 130 "" "" "$now INT 0.1 koksma-star <&5"
     t interrupt-writing 130 "" "" "$now INT 0.1 koksma-points halton -n 2^40 >&5"
     t terminate 143 "" "" "$now TERM 0.1 koksma-l2 -m pairs l2"
-    has interrupt-twice 3 'inf$' "$now INT 0.2 koksma-l2 -q -m pairs l2"
+    # Killed while it still reads, or stopped: no row, or a whole one.
+    t interrupt-twice 0 "" "" "$now INT 0.2 koksma-l2 -q -m pairs l2 >row 2>err
+        case \$? in 130) [ ! -s row ] ;; 3) grep -q 'inf\$' row ;; *) false ;; esac"
 fi
 
 rows_end
