@@ -36,13 +36,17 @@ unit_tests = \
   %D%/test_fractals %D%/test_gen %D%/test_gen_digits %D%/test_gen_scramble \
   %D%/test_gen_lattice %D%/test_gen_nets %D%/test_gen_patterns \
   %D%/test_integrand %D%/test_io %D%/test_io_npy %D%/test_io_npy_bad \
-  %D%/test_io_faults %D%/test_io_number %D%/test_io_reader %D%/test_io_table %D%/test_io_write \
+  %D%/test_io_number %D%/test_io_reader %D%/test_io_table %D%/test_io_write \
   %D%/test_known %D%/test_l2 %D%/test_num %D%/test_part %D%/test_points \
   %D%/test_rng %D%/test_scene %D%/test_shapes %D%/test_split %D%/test_star %D%/test_star_bound %D%/test_star_lines \
   %D%/test_star_methods %D%/test_star_search %D%/test_star_threads \
   %D%/test_bound %D%/test_variation
 LDADD = %D%/liboracle.la lib/libcore.la $(CHECK_LIBS)
 
+
+if HAVE_COOKIES
+unit_tests += %D%/test_io_faults
+endif
 
 if CAN_WRAP
 unit_tests += %D%/test_alloc %D%/test_alloc_data

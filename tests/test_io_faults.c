@@ -130,12 +130,18 @@ static ssize_t give(void *state, char *to, size_t room)
     return (ssize_t)now;
 }
 
+#ifdef __GLIBC__
+enum { REFUSED = 0 };
+#else
+enum { REFUSED = -1 };
+#endif
+
 static ssize_t take(void *state, const char *from, size_t size)
 {
     cookie *c = state;
 
-    if (interrupted(c)) return 0; /* for fopencookie, 0 is a failure */
-    if (c->at + size > c->fails_at) return (errno = c->fails_with), 0;
+    if (interrupted(c)) return REFUSED;
+    if (c->at + size > c->fails_at) return (errno = c->fails_with), REFUSED;
     memcpy(c->out + c->at, from, size);
     c->at += size;
     return (ssize_t)size;
