@@ -1,5 +1,5 @@
 /* Streams that misbehave: they hand out a few bytes at a time, are interrupted by
- * signals, and fail at every byte.  What is read is the same or one failure, and
+ * signals, and fail anywhere.  What is read is the same or one failure, and
  * what is said to be written is. */
 #define _GNU_SOURCE /* fopencookie */
 #include <check.h>
