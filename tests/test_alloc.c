@@ -17,8 +17,7 @@
 #include "star.h"
 #include "variation.h"
 
-/* ---- Threads that do not start ------------------------------------------------
- */
+/* ---- Threads that do not start -------------------------------------------- */
 
 int __real_pthread_create(pthread_t *thread, const pthread_attr_t *attributes,
                           void *(*work)(void *), void *state);
@@ -34,8 +33,7 @@ int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes,
     return __real_pthread_create(thread, attributes, work, state);
 }
 
-/* ---- Discrepancies ------------------------------------------------------------
- */
+/* ---- Discrepancies -------------------------------------------------------- */
 
 enum { POINTS = 24 };
 
@@ -277,8 +275,7 @@ START_TEST(threads_that_do_not_start)
 }
 END_TEST
 
-/* ---- Cells --------------------------------------------------------------------
- */
+/* ---- Cells ---------------------------------------------------------------- */
 
 /* Nothing is asserted in jobs: Check allocates. */
 static koksma_integrand integrand(const char *name, size_t dim)
@@ -368,8 +365,7 @@ START_TEST(cells)
 }
 END_TEST
 
-/* ---- Variation ----------------------------------------------------------------
- */
+/* ---- Variation ------------------------------------------------------------ */
 
 typedef struct varied {
     koksma_variation_result r;
@@ -431,8 +427,7 @@ START_TEST(variation)
 }
 END_TEST
 
-/* ---- Curves and fits ----------------------------------------------------------
- */
+/* ---- Curves and fits ------------------------------------------------------ */
 
 static koksma_status curve_job(const void *what, koksma_error *err)
 {

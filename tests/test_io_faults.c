@@ -16,8 +16,7 @@
 #include "io_fixture.h"
 #include "oracle.h"
 
-/* ---- What is read ---------------------------------------------------------------
- */
+/* ---- What is read --------------------------------------------------------- */
 
 static const char plain[] =
     "# koksma: a=1 b=2\n# x y\n0.5 0.25\r\n0x1p-3,1 # here\n"
