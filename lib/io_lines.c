@@ -39,7 +39,7 @@ static koksma_status keep_comment(ki_lines *l, const char *comment,
     return KOKSMA_OK;
 }
 
-/* ---- Reads that a signal ends, which somebody catches: the next one goes on ---- */
+/* ---- Reads that a signal ends: the next one goes on -------------------------- */
 
 static bool read_again(FILE *in)
 {

@@ -91,8 +91,7 @@ static koksma_status read_all(rendering *to, FILE *in, int content,
     return status;
 }
 
-/* ---- A stream that reads or writes badly
- * ------------------------------------------ */
+/* ---- A stream that reads or writes badly ---------------------------------- */
 
 typedef struct cookie {
     const char *bytes;
@@ -213,8 +212,7 @@ START_TEST(failure_anywhere)
 }
 END_TEST
 
-/* ---- Writing
- * ---------------------------------------------------------------------- */
+/* ---- Writing -------------------------------------------------------------- */
 
 enum { ROWS = 700 };
 
@@ -270,8 +268,7 @@ START_TEST(written_or_told)
 }
 END_TEST
 
-/* ---- A pipe, and a clock that interrupts
- * -------------------------------------------- */
+/* ---- A pipe, and a clock that interrupts ---------------------------------- */
 
 static volatile sig_atomic_t alarms;
 
