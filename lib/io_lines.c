@@ -39,8 +39,7 @@ static koksma_status keep_comment(ki_lines *l, const char *comment,
     return KOKSMA_OK;
 }
 
-/* ---- Reads that a signal ends, which somebody catches: the next one goes on ----
- */
+/* ---- Reads that a signal ends: the next one goes on -------------------------- */
 
 static bool read_again(FILE *in)
 {
@@ -96,8 +95,7 @@ static ssize_t read_line(ki_lines *l)
     return have > 0 ? (ssize_t)have : -1;
 }
 
-/* ---- Lines ----------------------------------------------------------------------
- */
+/* ---- Lines ---------------------------------------------------------------- */
 
 koksma_status ki_lines_next(ki_lines *l, bool *more, koksma_error *err)
 {

@@ -122,7 +122,7 @@ t folder-in-bound 1 "" "$out Is a directory" 'koksma-bound f2 - <folder'
 
 # Where there is such a limit and the programs start within it: under sanitizers they
 # do not.
-if (ulimit -v 60000 && koksma-star -V) >/dev/null 2>&1; then
+if sh -c 'ulimit -v 60000 && koksma-star -V; exit $?' >/dev/null 2>&1; then
     # An array of as many points as are read of it.
     koksma-points grid -n 1 --npy | head -c 128 |
         sed 's/(1, 2), }       /(99999999, 2), }/' >header.npy
@@ -201,7 +201,7 @@ if timeout --preserve-status 9 true 2>/dev/null; then
     t interrupt-writing 130 "" "" "$now INT 0.1 koksma-points halton -n 2^40 >&5"
     t terminate 143 "" "" "$now TERM 0.1 koksma-l2 -m pairs l2"
     # Killed while it still reads, or stopped: no row, or a whole one.
-    t interrupt-twice 0 "" "" "$now INT 0.2 koksma-l2 -q -m pairs l2 >row 2>err
+    t interrupt-twice 0 "" "" "$now INT 0.2 koksma-l2 -q -m pairs l2 >row 2>said
         case \$? in 130) [ ! -s row ] ;; 3) grep -q 'inf\$' row ;; *) false ;; esac"
 fi
 

@@ -1,8 +1,9 @@
 /* libFuzzer target: whatever bytes arrive, reading them as a table ends; what is
  * read is finite, its sets are numbered as they appear, and, written as a table, it
- * is read the same by name and by number. */
+ * is read the same by name and by number.  A fit of it is one, or a refusal. */
 #include <math.h>
 
+#include "fit.h"
 #include "io_fixture.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size);
@@ -59,6 +60,28 @@ static void check_written(const koksma_table *t)
     free(bytes);
 }
 
+static void check_fit(const koksma_table *t)
+{
+    koksma_fit_data d = {t->x, t->y, t->set, t->rows, t->sets};
+
+    for (koksma_fit_model m = KOKSMA_FIT_AUTO; m <= KOKSMA_FIT_TWO_POWERS; m++) {
+        koksma_fit_opts o = {.model = m};
+        koksma_fit_result f = {.used = 0};
+        koksma_error err = {0};
+        koksma_status status = koksma_fit(&f, d, &o, &err);
+
+        must((status == KOKSMA_OK) == (f.used >= 3));
+        if (status == KOKSMA_OK) {
+            must(f.model != KOKSMA_FIT_AUTO && f.sets == t->sets);
+            must(f.from > 0.0 && f.from < f.to && isfinite(f.to));
+            must(f.used + f.missing + f.zero + f.below_floor <= t->rows);
+        } else {
+            must(status == KOKSMA_EINVAL || status == KOKSMA_EDOMAIN);
+            must(err.status == status && err.text[0] != '\0');
+        }
+    }
+}
+
 /* A failure says why, and leaves the table of before. */
 static void check_failure(const koksma_table *t, koksma_status status,
                           const koksma_error *err)
@@ -88,6 +111,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
     if (status == KOKSMA_OK) {
         check_table(&t);
         check_written(&t);
+        if (t.rows <= 1024) check_fit(&t);
         (void)koksma_about_number(t.about, "x", &v);
         if (koksma_about_word(t.about, "x", word, sizeof word))
             must(strlen(word) < sizeof word);

@@ -479,11 +479,13 @@ int main(void)
     Suite *suite = suite_create("alloc");
     TCase *tc = tcase_create("memory"), *threads = tcase_create("threads");
 
-    tcase_add_loop_test(tc, discrepancies, 0, 2 * MEASURES);
+    tcase_add_loop_test(tc, discrepancies, 0, MEASURES);
     tcase_add_test(tc, cells);
     tcase_add_test(tc, variation);
     tcase_add_test(tc, curves_and_fits);
     suite_add_tcase(suite, tc);
+    tcase_set_tags(threads, "threads");
+    tcase_add_loop_test(threads, discrepancies, MEASURES, 2 * MEASURES);
     tcase_add_loop_test(threads, threads_that_do_not_start, 0, MEASURES);
     suite_add_tcase(suite, threads);
     return oracle_run(suite);

@@ -7,8 +7,7 @@
 #include "io.h"
 #include "oracle.h"
 
-/* ---- Generators ---------------------------------------------------------------
- */
+/* ---- Generators ----------------------------------------------------------- */
 
 typedef struct made {
     const koksma_gen_family *family;
@@ -70,8 +69,7 @@ START_TEST(generators)
 }
 END_TEST
 
-/* ---- Readers ------------------------------------------------------------------
- */
+/* ---- Readers -------------------------------------------------------------- */
 
 typedef struct input {
     const char *bytes;
