@@ -719,6 +719,9 @@ START_TEST(integrands_that_are_none)
     o.cells = 12;
     check_refused(koksma_variation(&r, NULL, &f, &o, &err), KOKSMA_EINVAL, &err,
                   "12 cells an axis, which is no power of 2 from 2 to 2^24");
+    o = (koksma_variation_opts){KOKSMA_VARIATION_RANDOM, 4, -1.0, 1};
+    check_refused(koksma_variation(&r, NULL, &f, &o, &err), KOKSMA_EINVAL, &err,
+                  "-1 samples, and there may be 2^50");
     o = (koksma_variation_opts){KOKSMA_VARIATION_BOUNDARY, 4, 0.0, 1};
     check_refused(koksma_variation(&r, NULL, &f, &o, &err), KOKSMA_EINVAL, &err,
                   "boundary cells take an integrand whose range is known");
