@@ -193,8 +193,11 @@ static void write_set(const koksma_gen *g, const koksma_gen_opts *o,
 
     if (x == NULL)
         cli_fail("not enough memory for points of %zu coordinates", o->dim);
+    if (form == KOKSMA_NPY && (size_t)o->n != o->n)
+        cli_fail("an array of %ju points is more than 32 bits can count",
+                 (uintmax_t)o->n);
     if (form == KOKSMA_NPY)
-        status = koksma_write_npy_header(stdout, o->n, o->dim, &err);
+        status = koksma_write_npy_header(stdout, (size_t)o->n, o->dim, &err);
     for (uint64_t i = 0; i < o->n && status == KOKSMA_OK; i += BLOCK) {
         size_t count = o->n - i < BLOCK ? (size_t)(o->n - i) : BLOCK;
 

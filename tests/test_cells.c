@@ -683,14 +683,17 @@ START_TEST(refusals)
     koksma_cells_opts same = {.ratio = 1};
     koksma_cell_count c = {.total = 7};
     koksma_cell_slope s = {.scales = 7};
-    uint64_t cells[20] = {7};
+    uint64_t cells[20] = {7, 7};
+    koksma_error err;
     uint32_t primes[20] = {2};
 
     ck_assert_int_eq(koksma_cells_count(&c, &f, none, NULL, NULL), KOKSMA_EINVAL);
     ck_assert_int_eq(koksma_cells_count(&c, &f, many, NULL, NULL), KOKSMA_EINVAL);
     f.meets = NULL;
     f.range = NULL;
-    ck_assert_int_eq(koksma_cells_count(&c, &f, cells, NULL, NULL), KOKSMA_EINVAL);
+    ck_assert_int_eq(koksma_cells_count(&c, &f, cells, NULL, &err), KOKSMA_EINVAL);
+    ck_assert_str_eq(err.text, "the integrand does not say which boxes its "
+                               "discontinuity meets");
     ck_assert_int_eq(koksma_cells_slope(&s, &f, 64, NULL, NULL, &same, NULL),
                      KOKSMA_EINVAL);
     ck_assert_int_eq(koksma_grid_choose(cells, 0, 2, NULL, NULL), KOKSMA_EINVAL);

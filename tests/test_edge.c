@@ -568,6 +568,39 @@ START_TEST(stopped_results_are_true)
 }
 END_TEST
 
+/* A long search reports on the way, so that it can be stopped. */
+static int note_gap(void *state, double lower, double upper, double work)
+{
+    watch *w = state;
+
+    (void)lower;
+    (void)upper;
+    w->upper = fmax(w->upper, work - w->work); /* the longest silence */
+    w->work = work;
+    return 0;
+}
+
+START_TEST(reports_on_the_way)
+{
+    enum { N = 8000 };
+    static double x[2 * N];
+    oracle_rng rng = oracle_rng_start(oracle_seed(), 77);
+    watch w = {0};
+    koksma_edge_opts opts = {.method = KOKSMA_EDGE_TREE,
+                             .threads = 1,
+                             .progress = note_gap,
+                             .state = &w};
+    koksma_edge_result r;
+
+    for (size_t i = 0; i < 2 * (size_t)N; i++)
+        x[i] = oracle_dyadic(&rng, 53);
+    ck_assert_int_eq(koksma_edge(&r, (koksma_points){x, N, 2}, &opts, NULL),
+                     KOKSMA_OK);
+    ck_assert_double_gt(r.work, 0x1p23);
+    ck_assert_double_le(fmax(w.upper, r.work - w.work), 0x1.4p22);
+}
+END_TEST
+
 START_TEST(refusals)
 {
     static const double x[] = {0.5, 0.5, 0.5, 1.5, 0.5, 0.5};
@@ -615,6 +648,7 @@ int main(void)
     tcase_add_test(tc, symmetries);
     tcase_add_test(tc, tolerance_and_stages);
     tcase_add_test(tc, stopped_results_are_true);
+    tcase_add_test(tc, reports_on_the_way);
     tcase_add_test(tc, refusals);
     tcase_set_timeout(tc, 600);
     suite_add_tcase(suite, tc);

@@ -625,6 +625,10 @@ START_TEST(refusals)
     opts.kind = KOKSMA_L2_KINDS;
     ck_assert_int_eq(koksma_l2(&r, (koksma_points){x, 1, 1}, &opts, &err),
                      KOKSMA_EINVAL);
+    opts = (koksma_l2_opts){.method = (koksma_l2_method)3};
+    ck_assert_int_eq(koksma_l2(&r, (koksma_points){x, 1, 1}, &opts, &err),
+                     KOKSMA_EINVAL);
+    ck_assert_str_eq(err.text, "there is no method 3");
     opts = (koksma_l2_opts){.method = KOKSMA_L2_DIVIDE};
     ck_assert_int_eq(
         koksma_l2(&r, (koksma_points){x, 1, KOKSMA_L2_DIVIDE_DIM + 1}, &opts, &err),

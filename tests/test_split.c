@@ -21,6 +21,26 @@ static parts split(const koksma_integrand_row *row, const double *param)
     return p;
 }
 
+/* What a part returns inside the cube is in what it says of the cube. */
+static void check_range(const char *name, const koksma_integrand *f,
+                        const double *x)
+{
+    double lower[64] = {0.0}, upper[64];
+    koksma_interval all;
+    double v;
+
+    if (f->range == NULL) return;
+    for (size_t k = 0; k < f->dim; k++) {
+        if (x[k] <= 0.0 || x[k] >= 1.0) return;
+        upper[k] = 1.0;
+    }
+    all = f->range(f, lower, upper).value;
+    v = f->value(f, x);
+    ck_assert_msg(all.lower <= v && v <= all.upper,
+                  "%s: %.17g is not in [%.17g, %.17g]", name, v, all.lower,
+                  all.upper);
+}
+
 /* Values within a rounding, and the smooth one without a change of piece. */
 static void check_values(const char *name, const parts *p)
 {
@@ -38,6 +58,8 @@ static void check_values(const char *name, const parts *p)
         ck_assert_msg(fabs(smooth + jump - v) <= 0x1p-52 * fabs(v),
                       "%s: %.17g + %.17g, not %.17g", name, smooth, jump, v);
         ck_assert(p->smooth.piece(&p->smooth, x) == 0);
+        check_range(name, &p->smooth, x);
+        check_range(name, &p->jump, x);
     }
 }
 

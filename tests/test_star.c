@@ -761,6 +761,7 @@ START_TEST(refused_options)
                               {.work = (double)NAN},
                               {.tolerance = -1e-3},
                               {.tolerance = (double)NAN},
+                              {.method = (koksma_star_method)99},
                               {.method = KOKSMA_STAR_SWEEP, .part = 1, .parts = 2},
                               {.method = KOKSMA_STAR_DEM, .part = 1, .parts = 2}};
 

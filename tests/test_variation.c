@@ -788,6 +788,10 @@ START_TEST(integrands_that_are_none)
     check_refused(koksma_variation(&r, NULL, &f, &o, &err), KOKSMA_EINVAL, &err,
                   "12 cells an axis, which is no power of 2 from 2 to 2^24");
     o = (koksma_variation_opts){
+        .method = KOKSMA_VARIATION_RANDOM, .cells = 4, .samples = -1.0, .seed = 1};
+    check_refused(koksma_variation(&r, NULL, &f, &o, &err), KOKSMA_EINVAL, &err,
+                  "-1 samples, and there may be 2^50");
+    o = (koksma_variation_opts){
         .method = KOKSMA_VARIATION_BOUNDARY, .cells = 4, .seed = 1};
     check_refused(koksma_variation(&r, NULL, &f, &o, &err), KOKSMA_EINVAL, &err,
                   "boundary cells take an integrand whose range is known");
