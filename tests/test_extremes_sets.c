@@ -148,10 +148,10 @@ static void check_grid(const grid *g)
 
 START_TEST(grids)
 {
-    static const grid g[] = {{1, 1, 1, 1, 1, 1}, {8, 1, 3, 1, 1, 1},
-                             {3, 2, 2, 1, 1, 1}, {1, 6, 4, 1, 1, 1},
-                             {2, 3, 1, 1, 1, 1}, {5, 2, 1, 1, 1, 1},
-                             {1, 8, 1, 1, 0, 1}};
+    static const grid g[] = {{1, 1, 1, 1, 1, 1},  {8, 1, 3, 1, 1, 1},
+                             {14, 1, 3, 0, 1, 0}, {3, 2, 2, 1, 1, 1},
+                             {1, 6, 4, 1, 1, 1},  {2, 3, 1, 1, 1, 1},
+                             {5, 2, 1, 1, 1, 1},  {1, 8, 1, 1, 0, 1}};
 
     for (size_t i = 0; i < sizeof g / sizeof g[0]; i++)
         check_grid(&g[i]);
@@ -160,7 +160,7 @@ END_TEST
 
 START_TEST(large_grids)
 {
-    static const grid g[] = {{23, 1, 1, 0, 0, 1}, {10, 2, 1, 0, 0, 1},
+    static const grid g[] = {{23, 1, 1, 0, 1, 1}, {10, 2, 1, 0, 0, 1},
                              {10, 2, 8, 0, 0, 0}, {4, 3, 10, 0, 1, 1},
                              {3, 4, 4, 0, 0, 0},  {1, 10, 100, 0, 0, 0}};
 
@@ -283,6 +283,7 @@ START_TEST(line)
     check_line(1);
     check_line(2);
     check_line(1000);
+    check_line(100000);
 }
 END_TEST
 
