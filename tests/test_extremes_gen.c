@@ -197,7 +197,7 @@ static const sample large[] = {
     {"zaremba", 1u << 23, 2, ROUND, 0},
     {"random", 10000000, 10, HOLES, 0},
     {"random", 10000, 10000, HOLES, 0},
-    {"grid", 10000000, 1, CELLS, 0},
+    {"grid", 10000000, 1, ROUND, 0},
     {"grid", 1u << 20, 20, CELLS, 0},
     {"centred", 10000000, 7, CELLS, 0},
     {"jittered", 10000000, 7, CELLS, 0},
