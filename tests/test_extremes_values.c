@@ -198,8 +198,32 @@ static void check_curve(double exact, double jump, size_t n)
     koksma_curve_close(c);
 }
 
+/* 1, -1, 1, -1, ... with an integral of 2^-60, which no difference shows: of an
+ * even number the error is -2^-60. */
+static void check_offset(void)
+{
+    static const uint64_t n[] = {2, 100, 65536};
+    koksma_curve *c;
+    const koksma_curve_row *row;
+    size_t rows;
+
+    ck_assert_int_eq(koksma_curve_open_at(&c, n, 3, NULL), KOKSMA_OK);
+    koksma_curve_begin(c, 0x1p-60);
+    for (int i = 0; i < 65536; i++) {
+        double v = i % 2 == 0 ? 1.0 : -1.0;
+
+        koksma_curve_add(c, &v, 1, 1);
+    }
+    ck_assert_int_eq(koksma_curve_rows(c, &row, &rows, NULL), KOKSMA_OK);
+    ck_assert_uint_eq(rows, 3);
+    for (size_t i = 0; i < rows; i++)
+        ck_assert(row[i].error == -0x1p-60);
+    koksma_curve_close(c);
+}
+
 START_TEST(curves)
 {
+    check_offset();
     for (int s = 0; s < SIZES; s++)
         check_curve(0.0, sizes[s], 1001);
     check_curve(1.0, 0.0, 1001);     /* no error at all */
