@@ -1,10 +1,7 @@
 #include "box_sweep_kernels.h"
 
-/* The distinct coordinates y of the points in the strip, between those of the faces
- * for open boxes, and passed[i]: the points below level i, so that there are
- * passed[i + 1] - passed[i] on it.  Returns how many levels there are. */
-static size_t find_levels(const ki_column *c, double left, double right,
-                          bool closed, const ki_strip_room *room)
+size_t ki_strip_levels(const ki_column *c, double left, double right, bool closed,
+                       const ki_strip_room *room)
 {
     double *level = room->level;
     size_t *passed = room->passed, levels = 0, count = 0;
@@ -42,26 +39,25 @@ static double deviation(const ki_strip_room *room, size_t i, size_t j, double n,
     return closed ? (double)*inside / n - volume : volume - (double)*inside / n;
 }
 
-static void offer(ki_run *run, const ki_column *c, double left, double right,
-                  double low, double high, size_t inside, bool closed)
+static void offer(ki_run *run, double left, double right, double low, double high,
+                  size_t inside, bool closed)
 {
-    double plane[] = {left, low, right, high}, line[] = {low, high};
+    double corners[] = {left, low, right, high};
 
-    ki_run_offer(run, c->dim == 2 ? plane : line, inside, closed);
+    ki_run_offer(run, corners, inside, closed);
 }
 
 /* Of all boxes that end at level j, only if the best of them is worth it. */
 static void offer_below(ki_run *run, const ki_column *c, double left, double right,
                         bool closed, const ki_strip_room *room, size_t j)
 {
-    double width = c->dim == 2 ? right - left : 1.0, n = (double)c->n;
+    double width = right - left, n = (double)c->n;
     size_t inside;
 
     for (size_t i = 0; i < j + closed; i++)
         if (deviation(room, i, j, n, width, closed, &inside) >=
             ki_team_peak(run->team) - run->best->slack)
-            offer(run, c, left, right, room->level[i], room->level[j], inside,
-                  closed);
+            offer(run, left, right, room->level[i], room->level[j], inside, closed);
 }
 
 /* What a box that begins at level i has ahead of those that begin elsewhere,
@@ -76,8 +72,9 @@ static double head_start(const ki_strip_room *room, size_t i, double n,
 void ki_strip_offer(ki_run *run, const ki_column *c, double left, double right,
                     bool closed, const ki_strip_room *room)
 {
-    size_t levels = find_levels(c, left, right, closed, room), lowest = 0, inside;
-    double width = c->dim == 2 ? right - left : 1.0, n = (double)c->n;
+    size_t levels = ki_strip_levels(c, left, right, closed, room), lowest = 0,
+           inside;
+    double width = right - left, n = (double)c->n;
     double lead = -2.0;
 
     /* `lowest`: where the best box that ends at level j begins. */

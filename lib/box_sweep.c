@@ -349,24 +349,17 @@ static void sweep_rows(void *state)
     ki_team_run(s->run.team, s->tasks, work_on, s);
 }
 
-/* On the line there is one strip: all of it. */
-static void sweep_line(void *state)
-{
-    sweep *s = state;
-
-    for (int closed = 0; closed < 2; closed++)
-        ki_strip_offer(&s->run, &s->column, 0.0, 1.0, closed, &s->worker[0].room);
-    s->worker[0].work += 2.0 * (double)s->column.n;
-}
-
 koksma_status ki_box_sweep(ki_best *b, const ki_run_opts *opts, double *upper,
                            double *work, bool *stopped)
 {
     sweep s = {0};
-    koksma_status status = begin(&s, b, opts);
+    koksma_status status;
+
+    if (b->p.dim == 1) return ki_box_line(b, opts, upper, work, stopped);
+    status = begin(&s, b, opts);
 
     if (status == KOKSMA_OK) {
-        ki_run_stages(&s.run, b->p.dim == 1 ? sweep_line : sweep_rows, &s);
+        ki_run_stages(&s.run, sweep_rows, &s);
         for (size_t i = 0; i < ki_team_threads(s.run.team); i++)
             s.run.work += s.worker[i].work;
         status = ki_run_outcome(&s.run, upper, work, stopped);

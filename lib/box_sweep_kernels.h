@@ -12,6 +12,7 @@
  *   box_kinetic.c   the best interval of y, kept while a strip of x widens
  *   box_strip.c     all good boxes of one strip
  *   box_sweep.c     which strips, in which order, by which thread
+ *   box_line.c      the line, which is one strip
  *
  * All in units of points: a strip of width w has the weight W = n w, and an
  * interval of length l with c points the excess c - W l (closed boxes) or W l - c
@@ -69,10 +70,20 @@ typedef struct ki_strip_room {
     size_t *passed;
 } ki_strip_room;
 
-/* Offer all boxes of a strip that may be better than what the run knows, or tie
- * with it.  left, right: its sides, which the points of a closed box may lie on;
- * not read if dim is 1. */
+/* The distinct coordinates y of the points in a strip, between those of the faces
+ * for open boxes, and passed[i]: the points below level i, so that there are
+ * passed[i + 1] - passed[i] on it.  left, right: its sides, which the points of a
+ * closed box may lie on; not read if dim is 1.  Returns how many levels there
+ * are. */
+size_t ki_strip_levels(const ki_column *c, double left, double right, bool closed,
+                       const ki_strip_room *room);
+
+/* Offer all boxes of a strip of the plane that may be better than what the run
+ * knows, or tie with it. */
 void ki_strip_offer(ki_run *run, const ki_column *c, double left, double right,
                     bool closed, const ki_strip_room *room);
+
+/* All of dim 1. */
+ki_box_kernel ki_box_line;
 
 #endif

@@ -3,7 +3,7 @@
 noinst_LTLIBRARIES = %D%/libcore.la
 %C%_libcore_la_SOURCES = \
   %D%/bound.c %D%/bound.h \
-  %D%/box.c %D%/box.h %D%/box_kernels.h %D%/box_bound.c %D%/box_kinetic.c \
+  %D%/box.c %D%/box.h %D%/box_kernels.h %D%/box_bound.c %D%/box_kinetic.c %D%/box_line.c \
   %D%/box_strip.c %D%/box_sweep.c %D%/box_sweep_kernels.h \
   %D%/cells.c %D%/cells.h %D%/cells_kernels.h %D%/cells_grid.c %D%/cells_line.c \
   %D%/cells_lines.c %D%/cells_occupancy.c %D%/cells_samples.c %D%/cells_slope.c \

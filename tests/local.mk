@@ -36,7 +36,8 @@ check_LTLIBRARIES += %D%/liboracle.la
 unit_tests = \
   %D%/test_bound %D%/test_box %D%/test_box_bound %D%/test_cells \
   %D%/test_cells_lines %D%/test_certify %D%/test_curve %D%/test_edge \
-  %D%/test_edge_cell %D%/test_extra %D%/test_extremes %D%/test_facts %D%/test_fit \
+  %D%/test_edge_cell %D%/test_extra %D%/test_extremes %D%/test_extremes_gen \
+  %D%/test_extremes_sets %D%/test_extremes_values %D%/test_facts %D%/test_fit \
   %D%/test_fit_coverage %D%/test_fit_judge %D%/test_fit_mixture %D%/test_fit_rules \
   %D%/test_fractals %D%/test_gen %D%/test_gen_digits %D%/test_gen_lattice \
   %D%/test_gen_nets %D%/test_gen_patterns %D%/test_gen_scramble %D%/test_integrand \
