@@ -147,6 +147,7 @@ fi
 # ---- Signals: what is printed is true, whenever they come --------------------------
 
 # So many moments for each tool, drawn from the seed.
+stopped=0
 moments=$((${KOKSMA_TEST_SCALE:-1}))
 
 # interrupted NAME LOWER UPPER COMMAND: the interval in these columns has that of the
@@ -154,10 +155,10 @@ moments=$((${KOKSMA_TEST_SCALE:-1}))
 # the measure has begun is none.
 interrupted() {
     name=$1 lower=$2 upper=$3 command=$4
-    eval "$command" >whole 2>/dev/null
+    $command >whole 2>/dev/null
     draw='BEGIN { srand(seed); for (i = 0; i < n; i++) printf "%.3f\n", 0.04 + 0.2 * rand() }'
     for delay in $(awk -v seed="${KOKSMA_TEST_SEED:-1}$lower" -v n="$moments" "$draw"); do
-        eval "$command" >out 2>err &
+        $command >out 2>err & # words alone, so that $! is the tool
         sleep "$delay"
         { kill -INT $! && kill -INT $!; } 2>/dev/null
         wait $!
@@ -167,6 +168,7 @@ interrupted() {
             NF % 2 || lower == "" || lower + 0 > $u + 0 ||
                 (upper != "inf" && upper + 0 < $l + 0) { print }
             END { if (NR != 1) print NR " rows" }')
+        [ "$status" -eq 3 ] && stopped=$((stopped + 1))
         [ "$status" -eq 0 ] && ! cmp -s whole out && wrong="not finished"
         [ "$status" -ne 0 ] && [ "$status" -ne 3 ] && wrong="status $status"
         [ "$status" -eq 3 ] && ! grep -q '^koksma-[a-z0-9]*: [^:]*$' err && wrong="no sentence"
@@ -189,6 +191,10 @@ interrupted box 3 4 'koksma-box -q box'
 interrupted edge 3 4 'koksma-edge -q edge'
 interrupted l2 3 4 'koksma-l2 -q -m pairs l2'
 interrupted cells 5 6 'koksma-cells -q ball -d 3 -n 2^29'
+[ "$stopped" -gt 0 ] || {
+    failures=$((failures + 1))
+    echo "FAILED: of all jobs none was interrupted before its end"
+}
 
 # A signal that nobody waits for ends a tool: while it reads, while it writes, and one
 # that asks it to end.  timeout sends an interrupt that is not ignored, and sends it
