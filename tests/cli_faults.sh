@@ -204,11 +204,15 @@ if timeout --preserve-status 9 true 2>/dev/null; then
     exec 5<>stuck
     now='timeout --preserve-status -s'
     t interrupt-reading 130 "" "" "$now INT 0.1 koksma-star <&5"
+    # The rows of the sets before are out.
+    t interrupt-between 130 "1${tab}1${tab}2${tab}1${tab}1" "" \
+        "printf '0 0\n\n1 1\n' >&5; $now INT 0.5 koksma-star -q <&5"
     t interrupt-writing 130 "" "" "$now INT 0.1 koksma-points halton -n 2^40 >&5"
-    t terminate 143 "" "" "$now TERM 0.1 koksma-l2 -m pairs l2"
+    koksma-points random -d 12 -n 2000 >long
+    t terminate 143 "" "" "$now TERM 0.1 koksma-star -m tree long"
     # Killed while it still reads, or stopped: no row, or a whole one.
-    t interrupt-twice 0 "" "" "$now INT 0.2 koksma-l2 -q -m pairs l2 >row 2>said
-        case \$? in 130) [ ! -s row ] ;; 3) grep -q 'inf\$' row ;; *) false ;; esac"
+    t interrupt-twice 0 "" "" "$now INT 0.2 koksma-star -q -m tree long >row 2>said
+        case \$? in 130) [ ! -s row ] ;; 3) grep -q '${tab}1\$' row ;; *) false ;; esac"
 fi
 
 rows_end
