@@ -229,11 +229,13 @@ static void certify_half_planes(const hard_set *s)
     hard_set at = *s;
 
     for (int turn = 0; turn < 4; turn++) {
+        const double *a = s->x + 2 * oracle_below(&at.rng, s->p.n);
+        const double *b = s->x + 2 * oracle_below(&at.rng, s->p.n);
         koksma_half_plane h;
 
         for (int k = 0; k < 2; k++) {
-            h.from[k] = s->x[2 * oracle_below(&at.rng, s->p.n) + (size_t)k];
-            h.to[k] = s->x[2 * oracle_below(&at.rng, s->p.n) + (size_t)k];
+            h.from[k] = a[k];
+            h.to[k] = b[k];
             if (turn > 1) h.from[k] = hard_mixed(&at.rng);
             if (turn % 2 == 1)
                 h.to[k] =
