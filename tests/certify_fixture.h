@@ -81,6 +81,23 @@ static inline double hard_mixed(oracle_rng *rng)
     }
 }
 
+/* On a line with the origin exactly, though no difference of two is a double. */
+static inline void hard_ray(hard_set *s)
+{
+    const koksma_points *p = &s->p;
+
+    for (size_t i = 0; i < p->n; i++) {
+        int down = (int)oracle_below(&s->rng, 12);
+
+        for (size_t k = 0; k < p->dim; k++) {
+            double v = i == 0 ? oracle_dyadic(&s->rng, 53) : ldexp(s->x[k], -down);
+
+            if (i > 2 && oracle_below(&s->rng, 8) == 0) v = nextafter(v, 0.0);
+            s->x[i * p->dim + k] = v;
+        }
+    }
+}
+
 /* All on a line through the square and, off it by a unit in the last place, now and
  * then one. */
 static inline void hard_line(hard_set *s)
@@ -164,12 +181,12 @@ static inline void hard_make(hard_set *s, size_t dim, size_t most, uint64_t roun
         double (*coordinate)(oracle_rng *rng);
         void (*points)(hard_set *s);
     } families[] = {
-        {"any", hard_any, NULL},         {"coarse", hard_coarse, NULL},
-        {"beside", hard_beside, NULL},   {"ends", hard_ends, NULL},
-        {"tiny", hard_tiny, NULL},       {"scales", hard_scales, NULL},
-        {"mixed", hard_mixed, NULL},     {"line", NULL, hard_line},
-        {"repeats", NULL, hard_repeats}, {"images", NULL, hard_images},
-        {"even", NULL, hard_even},
+        {"any", hard_any, NULL},       {"coarse", hard_coarse, NULL},
+        {"beside", hard_beside, NULL}, {"ends", hard_ends, NULL},
+        {"tiny", hard_tiny, NULL},     {"scales", hard_scales, NULL},
+        {"mixed", hard_mixed, NULL},   {"line", NULL, hard_line},
+        {"ray", NULL, hard_ray},       {"repeats", NULL, hard_repeats},
+        {"images", NULL, hard_images}, {"even", NULL, hard_even},
     };
     size_t which = (size_t)(round % (sizeof families / sizeof families[0]));
 
@@ -194,7 +211,7 @@ static inline void hard_complain(const hard_set *s, const char *what, int how,
                                  i % s->p.dim == 0 ? "\n  " : " ", s->x[i]);
     ck_abort_msg("%s, %d: [%a, %a], truth about %.17g, KOKSMA_TEST_SEED=%llu, set "
                  "%llu (%s):%s",
-                 what, how, v.lower, v.upper, exact_double(truth),
+                 what, how, v.lower, v.upper, (double)exact_value(truth),
                  (unsigned long long)oracle_seed(), (unsigned long long)s->round,
                  s->family, text);
 }

@@ -235,19 +235,19 @@ bool exact_contains_root(koksma_interval v, exact_ratio r)
 }
 
 /* The two upper words of a, and how many there are below. */
-static double leading(exact_int a, int *below)
+static long double leading(exact_int a, int *below)
 {
-    double high = a.used > 0 ? (double)a.word[a.used - 1] : 0.0;
-    double low = a.used > 1 ? (double)a.word[a.used - 2] : 0.0;
+    long double high = a.used > 0 ? (long double)a.word[a.used - 1] : 0.0L;
+    long double low = a.used > 1 ? (long double)a.word[a.used - 2] : 0.0L;
 
     *below = (int)a.used - 1;
-    return (a.negative ? -1.0 : 1.0) * (high + ldexp(low, -64));
+    return (a.negative ? -1.0L : 1.0L) * (high + ldexpl(low, -64));
 }
 
-double exact_double(exact_ratio r)
+long double exact_value(exact_ratio r)
 {
     int a, b;
-    double num = leading(r.num, &a), den = leading(r.den, &b);
+    long double num = leading(r.num, &a), den = leading(r.den, &b);
 
-    return ldexp(num / den, 64 * (a - b));
+    return ldexpl(num / den, 64 * (a - b));
 }

@@ -46,7 +46,7 @@ int exact_against(exact_ratio r, double v);
 bool exact_contains(koksma_interval v, exact_ratio r);
 /* Whether the interval holds the root of r, r >= 0. */
 bool exact_contains_root(koksma_interval v, exact_ratio r);
-/* r to within some units in the last place, for messages. */
-double exact_double(exact_ratio r);
+/* r to within some units in the last place. */
+long double exact_value(exact_ratio r);
 
 #endif

@@ -229,11 +229,13 @@ static void certify_half_planes(const hard_set *s)
     hard_set at = *s;
 
     for (int turn = 0; turn < 4; turn++) {
+        const double *a = s->x + 2 * oracle_below(&at.rng, s->p.n);
+        const double *b = s->x + 2 * oracle_below(&at.rng, s->p.n);
         koksma_half_plane h;
 
         for (int k = 0; k < 2; k++) {
-            h.from[k] = s->x[2 * oracle_below(&at.rng, s->p.n) + (size_t)k];
-            h.to[k] = s->x[2 * oracle_below(&at.rng, s->p.n) + (size_t)k];
+            h.from[k] = a[k];
+            h.to[k] = b[k];
             if (turn > 1) h.from[k] = hard_mixed(&at.rng);
             if (turn % 2 == 1)
                 h.to[k] =
@@ -242,6 +244,43 @@ static void certify_half_planes(const hard_set *s)
         if (h.from[0] == h.to[0] && h.from[1] == h.to[1]) continue;
         check_recount(s, "a half-plane", koksma_half_plane_local(&h, s->p),
                       exact_half_plane(s->p, h.from, h.to), 0x1p-93);
+    }
+}
+
+/* A half-plane above a line of a given direction through (across, up). */
+static koksma_half_plane above(double across, double up, double slope)
+{
+    return (koksma_half_plane){
+        .from = {across, up}, .to = {across + 0.5, up + 0.5 * slope}, .inside = 0};
+}
+
+/* A line that is shifted until the area is the share of the points in a corner but
+ * for a rounding, where all that the area has lost shows; the others are in the
+ * opposite corner. */
+static void certify_balanced_lines(const hard_set *s)
+{
+    hard_set at = *s;
+    size_t n = s->p.n, j = 1 + oracle_below(&at.rng, n);
+    double across = oracle_dyadic(&at.rng, 53), low = 0.0, high = 1.0;
+    double slope = 4.0 * oracle_dyadic(&at.rng, 53) - 2.0;
+
+    at.p.x = at.x;
+    for (size_t i = 0; i < n; i++) {
+        bool inside = i < j;
+
+        at.x[2 * i] = inside == (slope < 0.0) ? 1.0 : 0.0;
+        at.x[2 * i + 1] = inside ? 1.0 : 0.0;
+    }
+    for (int step = 0; step < 60; step++) {
+        koksma_half_plane h = above(across, 0.5 * (low + high), slope);
+        koksma_interval v = koksma_half_plane_local(&h, at.p);
+
+        check_recount(&at, "a balanced half-plane", v,
+                      exact_half_plane(at.p, h.from, h.to), 0x1p-93);
+        if (v.lower > 0.0)
+            high = h.from[1];
+        else
+            low = h.from[1];
     }
 }
 
@@ -265,12 +304,14 @@ static bool is_wide(const koksma_l2_result *r, int kind, double dim)
            width_of(r->log10) > 0.5 * share + 2e-13 * (1.0 - r->log10.lower);
 }
 
-/* A logarithm of doubles is off by less than that. */
+/* Where a long double has no more digits than a double, up to some of its units. */
 static bool contains_log10(koksma_interval v, exact_ratio r)
 {
-    double want = 0.5 * log10(exact_double(r)), off = 1e-15 * (1.0 + fabs(want));
+    long double want = 0.5L * log10l(exact_value(r));
+    long double off = oracle_long_doubles() ? 1e-18L : 1e-15L;
 
-    return v.lower <= want + off && v.upper >= want - off;
+    off *= 1.0L - want;
+    return (long double)v.lower <= want + off && (long double)v.upper >= want - off;
 }
 
 static void certify_l2(const hard_set *s)
@@ -350,6 +391,7 @@ static const struct shape {
     {"balanced", certify_balanced, 4, 9, 300},
     {"edge", certify_edge, 2, 9, 300},
     {"half-planes", certify_half_planes, 2, 9, 200},
+    {"balanced lines", certify_balanced_lines, 2, 9, 60},
     {"l2", certify_l2, 1, 12, 40},
     {"l2", certify_l2, 2, 12, 60},
     {"l2", certify_l2, 3, 9, 40},
