@@ -1,6 +1,6 @@
 #include "edge_kernels.h"
-#include "num_twice.h"
 #include "num_exact.h"
+#include "num_twice.h"
 
 /* The determinant in doubles has the right sign when it is above its rounding,
  * below 4 * 2^-53 of the sum of the two products [Shewchuk 1997], and what
