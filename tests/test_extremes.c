@@ -274,13 +274,32 @@ END_TEST
 START_TEST(large_sets)
 {
     static const size_of size[] = {
-        {10000000, 1, 0, 1}, {8388608, 1, 0, 1}, {1000000, 1, 0, 1},
-        {1000000, 2, 0, 1},  {1048576, 2, 0, 0}, {1000000, 3, 0, 1},
-        {1000000, 4, 0, 1},  {100000, 20, 0, 1}, {10000, 100, 0, 1},
-        {4, 1000, 1, 1},     {1000, 1000, 0, 0}, {1, 10000, 0, 0},
-        {4, 10000, 0, 0}};
+        {10000000, 1, 0, 1}, {8388608, 1, 0, 1}, {1000000, 2, 0, 0},
+        {100000, 2, 0, 1},   {65536, 2, 0, 0},   {1000000, 3, 0, 0},
+        {1000000, 4, 0, 0},  {10000, 4, 0, 1},   {10000, 20, 0, 1},
+        {4, 100, 0, 1},      {1000, 100, 0, 0},  {1, 10000, 0, 0}};
 
     check_sizes(size, sizeof size / sizeof size[0], _i);
+}
+END_TEST
+
+/* A search in a thousand dimensions, stopped: wide perhaps, but true. */
+START_TEST(stopped_sets)
+{
+    static const size_t n[] = {4, 100};
+
+    for (size_t i = 0; i < 2; i++)
+        if (fits(_i, n[i])) {
+            koksma_points p = points_at(shapes[_i].place, n[i], 1000);
+            koksma_star_opts opts = {
+                .method = KOKSMA_STAR_TREE, .threads = 1, .work = 1e4};
+            koksma_star_result r = {.witness = {.corner = NULL}};
+            koksma_status status = koksma_star(&r, p, &opts, NULL);
+
+            ck_assert(status == KOKSMA_OK || status == KOKSMA_STOPPED);
+            ck_assert(truth_inside(shapes[_i].star(n[i], 1000), r.value));
+            points_free(p);
+        }
 }
 END_TEST
 
@@ -295,6 +314,7 @@ int main(void)
     tcase_set_timeout(big, 1200);
     tcase_set_tags(big, "big");
     tcase_add_loop_test(big, large_sets, 0, SHAPES);
+    tcase_add_loop_test(big, stopped_sets, 0, SHAPES);
     suite_add_tcase(suite, big);
     return oracle_run(suite);
 }

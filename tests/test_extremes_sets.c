@@ -252,8 +252,8 @@ START_TEST(one_place_large)
 {
     check_places(10000000, 1);
     check_places(1000000, 2);
-    check_places(1000000, 4);
-    check_places(10000, 100);
+    check_places(10000, 4);
+    check_places(3000, 100);
     check_places(1000, 1000);
     check_places(100, 10000);
 }
@@ -378,9 +378,6 @@ static void check_mixed(size_t rounds, size_t most)
 START_TEST(mixed_sets) { check_mixed(60 * oracle_scale(), 12); }
 END_TEST
 
-START_TEST(large_mixed_sets) { check_mixed(20, 400); }
-END_TEST
-
 int main(void)
 {
     Suite *suite = suite_create("extremes, sets");
@@ -397,7 +394,6 @@ int main(void)
     tcase_add_test(big, large_grids);
     tcase_add_test(big, one_place_large);
     tcase_add_test(big, long_line);
-    tcase_add_test(big, large_mixed_sets);
     suite_add_tcase(suite, big);
     return oracle_run(suite);
 }
