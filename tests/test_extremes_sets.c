@@ -137,7 +137,7 @@ static void check_grid(const grid *g)
             double want = l2_of_grid(kind, 1.0 / (m * m), g->dim);
             bool divides = g->dim <= KOKSMA_L2_DIVIDE_DIM_TERMS;
 
-            expect_square(want, divides ? 1e-9 : 1e-4,
+            expect_square(want, divides ? p.n > 2000000 ? 1e-7 : 1e-9 : 1e-4,
                           l2(p, (koksma_l2_kind)kind,
                              divides ? KOKSMA_L2_DIVIDE : KOKSMA_L2_PAIRS),
                           kind, p);
@@ -250,7 +250,7 @@ END_TEST
 
 START_TEST(one_place_large)
 {
-    check_places(10000000, 1);
+    check_places(1000000, 1);
     check_places(1000000, 2);
     check_places(10000, 4);
     check_places(3000, 100);
