@@ -123,8 +123,7 @@ void fit_report_row(const fit_report *r)
     putchar('\n');
 }
 
-/* ---- The paragraph -------------------------------------------------------------
- */
+/* ---- The paragraph ----------------------------------------------------------- */
 
 static void explain_window(const fit_report *r)
 {

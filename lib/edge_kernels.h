@@ -235,10 +235,11 @@ void ki_edge_cell_split(ki_edge_split *s, const ki_edge_cell *c,
 size_t ki_edge_cell_keep(double *x, double *y, double *w, double *under,
                          const ki_edge_cell *c, const ki_edge_list *l);
 
-/* Offer all lines of a cell that may matter: for few points, and for any number. */
+/* Offer all lines of a cell that may matter: for few points, and for any number;
+ * *work and *spent count the points that were looked at. */
 enum { KI_EDGE_FEW = 6 };
 void ki_edge_leaf(ki_edge_run *r, const ki_edge_list *l, const ki_edge_cell *c);
 bool ki_edge_leaf_many(ki_edge_sweeper *s, ki_edge_run *r, const ki_edge_list *l,
-                       const ki_edge_cell *c, double *work);
+                       const ki_edge_cell *c, double *work, double *spent);
 
 #endif

@@ -129,7 +129,7 @@ static bool are_in_line(const ki_edge_list *l, double *a, double *b)
 }
 
 bool ki_edge_leaf_many(ki_edge_sweeper *s, ki_edge_run *r, const ki_edge_list *l,
-                       const ki_edge_cell *c, double *work)
+                       const ki_edge_cell *c, double *work, double *spent)
 {
     leaf f = begin(r, l, c);
     double a[2], b[2];
@@ -144,6 +144,7 @@ bool ki_edge_leaf_many(ki_edge_sweeper *s, ki_edge_run *r, const ki_edge_list *l
     for (size_t i = 0; i < l->count && !ki_edge_told_to_stop(r, work); i++) {
         ki_edge_sweep_about(s, r, l, i, c);
         *work += (double)l->count;
+        *spent += (double)l->count;
     }
     return true;
 }

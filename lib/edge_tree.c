@@ -172,8 +172,7 @@ static bool visit(tree *t, worker *w, node *n, const ki_edge_cell *c,
         ki_edge_leaf(t->run, &l, c);
         return false;
     }
-    w->spent += (double)n->count * (double)n->count;
-    if (!ki_edge_leaf_many(&w->sweeper, t->run, &l, c, &w->work))
+    if (!ki_edge_leaf_many(&w->sweeper, t->run, &l, c, &w->work, &w->spent))
         ki_edge_give_up(t->run);
     return false;
 }

@@ -112,8 +112,7 @@ ki_u128 ki_root_fraction(uint32_t p);
 /* The same of g, ..., g^dim for the g in (1/2,1) with g^dim + g^(dim+1) = 1. */
 void ki_golden_powers(ki_u128 *alpha, size_t dim);
 
-/* ---- Digital sequences in base 2 -----------------------------------------------
- */
+/* ---- Digital sequences in base 2 --------------------------------------------- */
 
 enum { KI_BINARY_BITS = 64, KI_SOBOL_DIMS = 1111, KI_NIEDERREITER_DIMS = 1377 };
 
@@ -128,8 +127,7 @@ koksma_status ki_binary_prepare(koksma_gen *g, ki_binary_directions *directions,
 void ki_binary_fill(const koksma_gen *g, double *x, uint64_t first, size_t count);
 void ki_binary_release(void *state);
 
-/* ---- Nested scrambling in base 2 ------------------------------------------------
- */
+/* ---- Nested scrambling in base 2 --------------------------------------------- */
 
 /* The scrambling of one coordinate: its random bits, and what they flip on the way
  * to each node of depth KI_OWEN_DEPTH, zeros behind it. */

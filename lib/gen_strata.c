@@ -32,8 +32,7 @@ static koksma_status check_strata(const koksma_gen *g, uint64_t m,
                    (uintmax_t)m, g->family->name);
 }
 
-/* ---- Jittered: a point in each cell of a grid [Cook 1986] -----------------------
- */
+/* ---- Jittered: a point in each cell of a grid [Cook 1986] -------------------- */
 
 static koksma_status prepare_jittered(koksma_gen *g, koksma_error *err)
 {
@@ -58,8 +57,7 @@ static void fill_jittered(const koksma_gen *g, double *x, uint64_t first,
     }
 }
 
-/* ---- One point in each of n strata of each axis ---------------------------------
- */
+/* ---- One point in each of n strata of each axis ------------------------------ */
 
 /* Strata are kept in 32 bits. */
 typedef struct strata {

@@ -115,8 +115,7 @@ koksma_status koksma_table_read(koksma_table *table, FILE *in, const char *x,
                                 const char *y, koksma_error *err);
 void koksma_table_free(koksma_table *table);
 
-/* ---- Writing ------------------------------------------------------------------
- */
+/* ---- Writing ----------------------------------------------------------------- */
 
 typedef enum koksma_form {
     KOKSMA_DECIMAL, /* tab-separated, as koksma_format_number has it */

@@ -94,8 +94,7 @@ static void conclude(koksma_l2_result *r, ki_l2_number v)
     fill(r, lower, upper, v.e);
 }
 
-/* ---- The public function --------------------------------------------------------
- */
+/* ---- The public function ----------------------------------------------------- */
 
 /* From how many points on divide is faster with one thread, about, by its terms and
  * the dimension; measured on Halton points. */

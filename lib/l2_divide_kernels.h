@@ -15,8 +15,7 @@ typedef struct ki_l2_key {
 /* Sort by bits, stably; spare has room for n.  Returns where the result is. */
 ki_l2_key *ki_l2_sort(ki_l2_key *key, ki_l2_key *spare, size_t n);
 
-/* ---- What a kernel of one coordinate is cut into ------------------------------
- */
+/* ---- What a kernel of one coordinate is cut into ----------------------------- */
 
 /* k(x,y) = sum over r of sign_r f_r(x) f_r(y)  +  times * core(x,y), of which only
  * the core, for x <= y a product first(x) second(y), minds the order:
@@ -129,8 +128,7 @@ void ki_l2_solve(ki_l2_worker *w, size_t axes, ki_l2_list l);
 /* Of those, the pairs on either side of a rank along the last axis. */
 void ki_l2_apart(ki_l2_worker *w, size_t axes, ki_l2_list l, uint32_t cut);
 
-/* ---- Loops, of which l2_sweep.c has one for each core -------------------------
- */
+/* ---- Loops, of which l2_sweep.c has one for each core ------------------------ */
 
 typedef struct ki_l2_halves {
     ki_l2_list low, high;

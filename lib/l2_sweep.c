@@ -77,8 +77,7 @@ KI_L2_INLINE ki_twice weight(const ki_l2_slot *item)
     return (ki_twice){item[0].x, item[1].x};
 }
 
-/* ---- Two axes ------------------------------------------------------------------
- */
+/* ---- Two axes ---------------------------------------------------------------- */
 
 /* An item meets those before it on the other side of the cut.  At each tie along
  * axis 0 either order gives the same product. */
@@ -129,8 +128,7 @@ KI_L2_INLINE ki_l2_halves sweep(ki_l2_core core, ki_l2_worker *w, ki_l2_list l,
     };
 }
 
-/* ---- More axes -----------------------------------------------------------------
- */
+/* ---- More axes --------------------------------------------------------------- */
 
 KI_L2_INLINE ki_l2_list lift(ki_l2_core core, ki_l2_worker *w, ki_l2_slot *to,
                              ki_l2_list l, size_t axis, uint32_t cut, bool swapped)
@@ -161,8 +159,7 @@ KI_L2_INLINE ki_l2_list lift(ki_l2_core core, ki_l2_worker *w, ki_l2_slot *to,
     return s;
 }
 
-/* ---- Few items -----------------------------------------------------------------
- */
+/* ---- Few items --------------------------------------------------------------- */
 
 /* Items in columns, for vectors of them. */
 enum { COLUMN = 64, LANES = 8 };
@@ -249,8 +246,7 @@ KI_L2_INLINE void brute(ki_l2_core core, ki_l2_worker *w, size_t axes, ki_l2_lis
                          : 0.5 * (double)l.n * (double)l.n);
 }
 
-/* ---- One axis ------------------------------------------------------------------
- */
+/* ---- One axis ---------------------------------------------------------------- */
 
 KI_L2_INLINE void pass(ki_l2_core core, ki_l2_worker *w, ki_twice_total *before,
                        const double *x, const ki_twice *v, size_t n)

@@ -163,8 +163,7 @@ void ki_cell_leave(ki_worker *w, const ki_cell *c);
  * that no digits cancel in the least volume that matters; or -1: all corners. */
 double ki_cell_bound(ki_worker *w, const ki_cell *c, double target);
 
-/* ---- What the bound asks of a measure -----------------------------------------
- */
+/* ---- What the bound asks of a measure ---------------------------------------- */
 
 /* A linear bound of the volumes in a cell, for those corners z that are not below
  * the target.  With places, and slopes in the worker:

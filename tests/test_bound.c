@@ -216,8 +216,7 @@ START_TEST(refusals)
 }
 END_TEST
 
-/* ---- Errors of points that are made -------------------------------------------
- */
+/* ---- Errors of points that are made ------------------------------------------ */
 
 enum { PATHS = 64, LARGEST = 1 << 14, STEPS = 17, DIM_MOST = 6 };
 

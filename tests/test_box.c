@@ -251,8 +251,7 @@ START_TEST(any_box_is_recounted)
 }
 END_TEST
 
-/* ---- Sets too large for loops ---------------------------------------------------
- */
+/* ---- Sets too large for loops ------------------------------------------------ */
 
 /* levels > 0: moved to a grid of so many steps, for ties in masses. */
 static const struct source {

@@ -40,8 +40,7 @@ static void make_set(fixture *f, uint64_t round)
                                  : oracle_dyadic(&f->rng, 53);
 }
 
-/* ---- Cells ---------------------------------------------------------------------
- */
+/* ---- Cells ------------------------------------------------------------------- */
 
 static void draw_corner(fixture *f, const ki_cell *c, uint32_t *z)
 {
@@ -197,8 +196,7 @@ START_TEST(bounds_hold)
 }
 END_TEST
 
-/* ---- Strips --------------------------------------------------------------------
- */
+/* ---- Strips ------------------------------------------------------------------ */
 
 static int ascending(const void *a, const void *b)
 {

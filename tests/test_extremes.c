@@ -9,8 +9,7 @@
 #include "extremes_fixture.h"
 #include "star.h"
 
-/* ---- Closed forms -------------------------------------------------------------
- */
+/* ---- Closed forms ------------------------------------------------------------ */
 
 typedef truth formula(size_t n, size_t dim);
 
@@ -232,8 +231,7 @@ static void check_edge(truth t, koksma_points p, const char *name, bool every)
         }
 }
 
-/* ---- The shapes -----------------------------------------------------------------
- */
+/* ---- The shapes -------------------------------------------------------------- */
 
 typedef struct size_of {
     size_t n, dim;

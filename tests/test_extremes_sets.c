@@ -59,8 +59,7 @@ static void expect(truth t, koksma_interval v, const char *measure, koksma_point
                   measure, p.n, p.dim, v.lower, v.upper, t.near, t.side);
 }
 
-/* ---- Grids ----------------------------------------------------------------------
- */
+/* ---- Grids ------------------------------------------------------------------- */
 
 /* Of m points an axis the mean of h is c + b e and that of k over all pairs c + g
  * e, e = 1/m^2 and m even, since for x = (j + 1/2)/m the mean of x^2 is 1/3 - e/12,
@@ -169,8 +168,7 @@ START_TEST(large_grids)
 }
 END_TEST
 
-/* ---- All points in one place, in the mean square --------------------------------
- */
+/* ---- All points in one place, in the mean square ----------------------------- */
 
 /* log10 of |c^dim - 2 h^dim + k^dim| / 2, the greatest power outside. */
 static double log_of_place(double c, double h, double k, size_t dim)
@@ -259,8 +257,7 @@ START_TEST(one_place_large)
 }
 END_TEST
 
-/* ---- The line -------------------------------------------------------------------
- */
+/* ---- The line ---------------------------------------------------------------- */
 
 /* i/2^24, i < n <= 2^24: both are 1 - (n-1)/2^24, by the closed box with all points
  * and the open one, from the last on or from 0, that has none or all. */
@@ -290,8 +287,7 @@ END_TEST
 START_TEST(long_line) { check_line(10000000); }
 END_TEST
 
-/* ---- Sets of everything ---------------------------------------------------------
- */
+/* ---- Sets of everything ------------------------------------------------------ */
 
 static const double palette[] = {0.0,       LEAST, 0x1p-600,      1e-300,
                                  ULP,       0.25,  0.5 - ULP / 2, 0.5,

@@ -14,8 +14,7 @@
 static const double sizes[] = {1.0, 1e-300, LEAST, 1e300, 0x1p-1000};
 enum { SIZES = sizeof sizes / sizeof sizes[0] };
 
-/* ---- Variation ------------------------------------------------------------------
- */
+/* ---- Variation --------------------------------------------------------------- */
 
 /* J where all coordinates are above 1/2, else 0. */
 static double corner_value(const koksma_integrand *f, const double *x)
@@ -119,8 +118,7 @@ END_TEST
 START_TEST(many_sampled_values) { check_samples(10000000); }
 END_TEST
 
-/* ---- Cells ----------------------------------------------------------------------
- */
+/* ---- Cells ------------------------------------------------------------------- */
 
 /* sum x > dim/2 in two cells an axis: that with j upper halves has sums from j/2 to
  * (j + dim)/2, which the jump at dim/2 cuts but for j = 0 and j = dim; those it
@@ -167,8 +165,7 @@ START_TEST(many_cells)
 }
 END_TEST
 
-/* ---- Curves ---------------------------------------------------------------------
- */
+/* ---- Curves ------------------------------------------------------------------ */
 
 /* n values exact + J, exact - J, exact + J, ...: the error is J/N for odd N and 0
  * for even ones. */
@@ -254,8 +251,7 @@ START_TEST(rms_of_any_size)
 }
 END_TEST
 
-/* ---- Fits -----------------------------------------------------------------------
- */
+/* ---- Fits -------------------------------------------------------------------- */
 
 /* J/N in every replicate: the exponent is -1 and the constant J.  Where rounding
  * speaks nothing is fitted. */
@@ -309,8 +305,7 @@ END_TEST
 START_TEST(large_fits) { check_fit(1e-300, 100000); }
 END_TEST
 
-/* ---- Bounds ---------------------------------------------------------------------
- */
+/* ---- Bounds ------------------------------------------------------------------ */
 
 /* sqrt(S/6) J N^(-(d+1)/2d) is J sqrt(S/6)/N for d = 1, and close to J sqrt(S/6N)
  * in many dimensions. */

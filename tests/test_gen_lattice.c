@@ -10,8 +10,7 @@
 
 static double x[ROOM];
 
-/* ---- Exact integers: LIMBS of 16 bits, the lowest first ------------------------
- */
+/* ---- Exact integers: LIMBS of 16 bits, the lowest first ---------------------- */
 
 enum { LIMBS = 64 * 8 };
 typedef struct whole {

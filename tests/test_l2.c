@@ -178,8 +178,7 @@ static int compare(fraction f, double v)
     return rest > 0;
 }
 
-/* ---- What must hold -------------------------------------------------------------
- */
+/* ---- What must hold ---------------------------------------------------------- */
 
 static koksma_l2_result solve(koksma_points p, koksma_l2_kind kind,
                               koksma_l2_method method)
@@ -382,8 +381,7 @@ START_TEST(long_totals)
 }
 END_TEST
 
-/* ---- Known values -------------------------------------------------------------
- */
+/* ---- Known values ------------------------------------------------------------ */
 
 static double *halton(size_t n, size_t dim, uint64_t start)
 {
