@@ -95,8 +95,17 @@ static koksma_bound_term term_of(double value, koksma_bound_kind kind)
     return (koksma_bound_term){value, isnan(value) ? KOKSMA_BOUND_UNKNOWN : kind};
 }
 
-/* 0 times what is not known is 0. */
-static double times(double v, double star) { return v == 0.0 ? 0.0 : v * star; }
+/* v * star, not rounded down: the bound stays one.  0 times what is not known is 0. */
+static double times(double v, double star)
+{
+    double product = v * star;
+
+    if (v == 0.0) return 0.0;
+    /* Below that the residual may underflow. */
+    if (fma(v, star, -product) > 0.0 || product < 0x1p-960)
+        product = nextafter(product, HUGE_VAL);
+    return product;
+}
 
 static koksma_bound_term hlawka(const koksma_bound_facts *f, double star)
 {

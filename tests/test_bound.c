@@ -72,6 +72,29 @@ START_TEST(every_term)
 END_TEST
 
 /* Few points are not worse than random ones. */
+/* V D* as it is, or a double above: of 53 bits each, the product has 106, and fma
+ * says on which side of it the bound is. */
+START_TEST(the_proved_one_is_not_below)
+{
+    oracle_rng rng = oracle_rng_start(oracle_seed(), 0);
+    size_t exact = 0;
+
+    for (size_t i = 0; i < 1000; i++) {
+        koksma_bound_facts f = known();
+        koksma_bound_term t[KOKSMA_BOUND_TERMS];
+        double star = oracle_dyadic(&rng, i % 4 == 0 ? 8 : 53) / 2 + 0x1p-10, low;
+
+        f.vhk = 1.0 + oracle_dyadic(&rng, i % 4 == 0 ? 8 : 53);
+        terms(t, &f, 4096.0, star, 3.0);
+        low = nextafter(t[KOKSMA_BOUND_HLAWKA].value, 0.0);
+        ck_assert(fma(f.vhk, star, -t[KOKSMA_BOUND_HLAWKA].value) <= 0.0);
+        ck_assert(fma(f.vhk, star, -low) > 0.0);
+        exact += fma(f.vhk, star, -t[KOKSMA_BOUND_HLAWKA].value) == 0.0;
+    }
+    ck_assert_uint_ge(exact, 250);
+}
+END_TEST
+
 START_TEST(clamped_by_random_points)
 {
     koksma_bound_facts f = known();
@@ -372,6 +395,7 @@ int main(void)
     TCase *c = tcase_create("bound"), *big = tcase_create("big");
 
     tcase_add_test(c, every_term);
+    tcase_add_test(c, the_proved_one_is_not_below);
     tcase_add_test(c, clamped_by_random_points);
     tcase_add_test(c, what_is_proved);
     tcase_add_test(c, area_from_the_extent);
