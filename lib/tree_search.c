@@ -8,7 +8,8 @@ static const double UPPER = 1.0;
 typedef struct search {
     const ki_best *best;
     const ki_run_opts *opts;
-    double work, next_report;
+    double work;
+    double since; /* the last report, what it took */
     bool stopped;
 } search;
 
@@ -16,10 +17,13 @@ static bool told_to_stop(void *state, double work)
 {
     search *s = state;
     const ki_run_opts *opts = s->opts;
+    double sides = (double)s->best->sides;
 
+    /* A climb multiplies all sides at each: with many of them the points are few. */
+    s->since += work - s->work + sides * sides;
     s->work = work;
-    if (work < s->next_report) return false;
-    s->next_report = work + 0x1p20;
+    if (s->since < 0x1p20) return false;
+    s->since = 0.0;
     s->stopped =
         (opts->work > 0.0 && work > opts->work) ||
         (opts->progress != NULL &&
@@ -31,7 +35,7 @@ koksma_status ki_tree_search(ki_best *b, const ki_run_opts *opts,
                              const ki_measure *measure, size_t patience,
                              double *upper, double *work, bool *stopped)
 {
-    search s = {.best = b, .opts = opts, .next_report = 0x1p20};
+    search s = {.best = b, .opts = opts};
     ki_ranks ranks[2] = {{0}};
     koksma_status status = ki_ranks_make(&ranks[0], b->p, false, measure);
 
