@@ -504,8 +504,8 @@ START_TEST(stopped_at_any_time)
 {
     static const koksma_variation_opts ways[] = {
         {.method = KOKSMA_VARIATION_GRID, .cells = 256},
-        {.method = KOKSMA_VARIATION_BOUNDARY, .cells = 4096},
-        {.method = KOKSMA_VARIATION_RANDOM, .cells = 64, .samples = 1e5},
+        {.method = KOKSMA_VARIATION_BOUNDARY, .cells = 1024},
+        {.method = KOKSMA_VARIATION_RANDOM, .cells = 64, .samples = 1e4},
     };
     koksma_variation_opts o = ways[_i];
     koksma_integrand f = fixture_make(NULL, "f2", 2, NULL);
