@@ -607,16 +607,17 @@ int main(void)
 {
     Suite *suite = suite_create("cells_lines");
     TCase *lines = tcase_create("lines"), *big = tcase_create("coverage");
-    TCase *points = tcase_create("points");
+    TCase *points = tcase_create("points"), *ways = tcase_create("ways");
 
     tcase_add_test(lines, extents_by_lines);
-    tcase_add_test(lines, ways_of_lines);
     tcase_add_test(lines, slopes_are_no_jumps);
     tcase_add_test(lines, jumps_within_a_step);
     tcase_add_test(lines, faces_of_the_cube);
     tcase_add_test(lines, seeds);
     tcase_add_test(lines, stops_and_refusals);
     tcase_set_timeout(lines, 60);
+    tcase_set_tags(ways, "slow");
+    tcase_add_test(ways, ways_of_lines);
     tcase_set_tags(big, "big");
     tcase_set_timeout(big, 600);
     tcase_add_test(big, coverage);
@@ -630,6 +631,7 @@ int main(void)
     tcase_add_test(points, halton_in_cubes);
     tcase_add_test(points, refusals_of_occupancy);
     suite_add_tcase(suite, lines);
+    suite_add_tcase(suite, ways);
     suite_add_tcase(suite, big);
     suite_add_tcase(suite, points);
     return oracle_run(suite);

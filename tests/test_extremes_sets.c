@@ -377,14 +377,17 @@ END_TEST
 int main(void)
 {
     Suite *suite = suite_create("extremes, sets");
-    TCase *tc = tcase_create("small"), *big = tcase_create("large");
+    TCase *tc = tcase_create("small"), *big = tcase_create("large"),
+          *slow = tcase_create("grids");
 
     tcase_set_timeout(tc, 60);
-    tcase_add_test(tc, grids);
     tcase_add_test(tc, one_place);
     tcase_add_test(tc, line);
     tcase_add_test(tc, mixed_sets);
     suite_add_tcase(suite, tc);
+    tcase_set_tags(slow, "slow");
+    tcase_add_test(slow, grids);
+    suite_add_tcase(suite, slow);
     tcase_set_timeout(big, 1200);
     tcase_set_tags(big, "big");
     tcase_add_test(big, large_grids);

@@ -177,14 +177,16 @@ END_TEST
 int main(void)
 {
     Suite *suite = suite_create("fit mixture");
-    TCase *tc = tcase_create("two terms");
+    TCase *tc = tcase_create("two terms"), *slow = tcase_create("groups");
 
     suite_add_tcase(suite, tc);
     tcase_add_test(tc, known_terms);
     tcase_add_test(tc, one_term);
-    tcase_add_test(tc, groups_left_out);
     tcase_add_test(tc, automatic);
     tcase_add_test(tc, units);
     tcase_add_test(tc, refused);
+    tcase_set_tags(slow, "slow");
+    tcase_add_test(slow, groups_left_out);
+    suite_add_tcase(suite, slow);
     return oracle_run(suite);
 }

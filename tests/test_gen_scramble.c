@@ -315,8 +315,12 @@ int main(void)
 
     tc = tcase_create("chance");
     suite_add_tcase(suite, tc);
+    tcase_set_tags(tc, "slow");
     tcase_add_loop_test(tc, single_points_are_uniform, 0,
                         sizeof hows / sizeof *hows);
+
+    tc = tcase_create("pairs");
+    suite_add_tcase(suite, tc);
     tcase_add_test(tc, defects_are_found);
     tcase_add_test(tc, pairs_of_points);
     return oracle_run(suite);

@@ -487,9 +487,11 @@ static TCase *tests_named(Suite *suite, const char *name)
 int main(void)
 {
     Suite *suite = suite_create("star_lines");
-    TCase *tc = tests_named(suite, "small");
+    TCase *tc = tests_named(suite, "many");
 
+    tcase_set_tags(tc, "slow");
     tcase_add_loop_test(tc, as_the_sweep_says, 0, sizeof shapes / sizeof *shapes);
+    tc = tests_named(suite, "small");
     tcase_add_test(tc, as_the_definition_says);
     tc = tests_named(suite, "large");
     tcase_add_loop_test(tc, as_the_tree_says, 0, sizeof large / sizeof *large);
