@@ -93,7 +93,7 @@ check-sanitize:
 # And another, in threads/: what runs in several threads at once, and nothing else,
 # since the thread sanitizer makes everything ten times as slow.  Cases tagged slow
 # are left out here too.
-THREAD_TESTS = %D%/test_box %D%/test_edge %D%/test_part %D%/test_star_threads \
+THREAD_TESTS = %D%/test_edge %D%/test_part %D%/test_star_threads %D%/test_threads
   %D%/test_threads
 check-threads:
 	$(MKDIR_P) threads
