@@ -94,7 +94,6 @@ check-sanitize:
 # since the thread sanitizer makes everything ten times as slow.  Cases tagged slow
 # are left out here too.
 THREAD_TESTS = %D%/test_edge %D%/test_part %D%/test_star_threads %D%/test_threads
-  %D%/test_threads
 check-threads:
 	$(MKDIR_P) threads
 	cd threads && { test -f Makefile || \
