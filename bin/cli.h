@@ -117,8 +117,11 @@ typedef struct cli_watch {
 
 /* From here on an interrupt stops the job, not the program. */
 void cli_watch_start(cli_watch *watch);
-void cli_watch_stop(const cli_watch *watch); /* and from here the program again */
-double cli_seconds(const cli_watch *watch);  /* since the start */
-koksma_progress cli_watch_progress;          /* its state is the cli_watch */
+void cli_watch_stop(const cli_watch *watch); /* ends the live line */
+/* From here on it ends the program again, as does one that came since the last job:
+ * not before that job's row is out. */
+void cli_watch_release(void);
+double cli_seconds(const cli_watch *watch); /* since the start */
+koksma_progress cli_watch_progress;         /* its state is the cli_watch */
 
 #endif

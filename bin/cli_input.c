@@ -119,6 +119,7 @@ bool cli_read_set(cli_input *input, koksma_set *set)
     size_t columns;
 
     cli_flush(); /* an interrupt while it reads must not take the rows before */
+    cli_watch_release();
     if (!cli_next_set(input, &columns)) return false;
     if (koksma_set_read(set, input->reader, &err) != KOKSMA_OK)
         cli_fail_input(input, &err);

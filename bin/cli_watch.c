@@ -36,10 +36,17 @@ void cli_watch_start(cli_watch *watch)
 
 void cli_watch_stop(const cli_watch *watch)
 {
-    /* After an interrupt the tool prints and leaves, unless the same one, sent
-     * twice, ends it before that. */
-    if (!interrupted) signal(SIGINT, SIG_DFL);
     if (watch->show && isatty(STDERR_FILENO)) putc('\n', stderr);
+}
+
+void cli_watch_release(void)
+{
+    struct sigaction action;
+
+    sigaction(SIGINT, NULL, &action);
+    if (action.sa_handler != on_interrupt) return;
+    signal(SIGINT, SIG_DFL);
+    if (interrupted) raise(SIGINT);
 }
 
 double cli_seconds(const cli_watch *watch) { return now() - watch->started; }

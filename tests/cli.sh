@@ -326,7 +326,7 @@ if [ -w /dev/full ]; then
         'koksma-points halton -n 1e5 --npy >/dev/full'
 fi
 t closed-pipe 0 "# koksma-points halton -n 2^40" "" 'koksma-points halton -n 2^40 | head -n 1'
-has time-limit 3 '	1$' 'koksma-points random -d 12 -n 5000 | koksma-star -t 0.05 -q'
+has time-limit 3 '^5000	12	0\.' 'koksma-points random -d 12 -n 5000 | koksma-star -t 0.05 -q'
 has interrupt 3 '	1$' \
     'koksma-points random -d 12 -n 5000 >p
      sh -c "trap - INT; exec koksma-star -q p" & sleep 1; kill -INT $!; wait $!'
