@@ -164,7 +164,7 @@ static void closed_line(ki_worker *w, const ki_cell *c, double target,
                         uint32_t round, ki_slopes *line)
 {
     size_t dim = w->ranks->dim;
-    double most = (double)(c->inside + c->lives) / (double)w->ranks->n, volume;
+    double most = (double)c->within / (double)w->ranks->n, volume;
     double *low = w->best_term,
            *high = low + dim; /* free until the terms are known */
 

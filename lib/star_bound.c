@@ -103,7 +103,7 @@ static double log_of_best(const ki_worker *w)
 static void closed_line(ki_worker *w, const ki_cell *c, double target,
                         uint32_t round, ki_slopes *line)
 {
-    double most = (double)(c->inside + c->lives) / (double)w->ranks->n;
+    double most = (double)c->within / (double)w->ranks->n;
     extent x = extent_of(w, c);
     double slope, touch;
 

@@ -42,12 +42,12 @@ ki_span ki_open_entries(const ki_worker *w, const ki_cell *c, size_t k)
     return s;
 }
 
-double ki_inverse_width(const ki_worker *w, const ki_cell *c, size_t k)
+double ki_reach_scale(const ki_worker *w, const ki_cell *c, size_t k)
 {
     const double *place = w->ranks->axis[k].place;
     double width = place[c->high[k]] - place[c->low[k]];
 
-    return width > 0.0 ? 1.0 / width : 0.0;
+    return width > 0x1p-1000 ? KI_REACH / width : 0.0;
 }
 
 /* Measured: rounds cost more than they save below 9 axes, and the more axes there

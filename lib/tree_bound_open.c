@@ -7,30 +7,34 @@
 /* A whole weight, in the units of a point's choice. */
 enum { WHOLE = 256 };
 
+/* A point open along one axis has the whole weight there, whatever the corner: only
+ * those open along several are weighed. */
+
 /* What the weights bring as a constant: sum w (axes where it is open - 1). */
 static double constant_of(const ki_worker *w, const ki_cell *c)
 {
-    const uint32_t *live = w->live + c->live;
+    const uint32_t *several = w->several + c->several;
     uint64_t constant = 0;
 
-    for (size_t i = 0; i < c->lives; i++) {
-        const ki_standing *s = &w->standing[live[i]];
+    for (size_t i = 0; i < c->severals; i++) {
+        const ki_standing *s = &w->standing[several[i]];
 
         constant += (uint64_t)s->choice * (s->opens - 1);
     }
     return (double)constant / WHOLE;
 }
 
-/* How far each entry is from the upper end, and each point up its ranges. */
+/* How far each entry is from the upper end, and each point that is open along
+ * several axes up its ranges. */
 static void measure_gaps(ki_worker *w, const ki_cell *c)
 {
     double *gap = w->gap;
 
-    for (size_t i = 0; i < c->lives; i++)
-        w->standing[w->live[c->live + i]].reach = 0.0f;
+    for (size_t i = 0; i < c->severals; i++)
+        w->standing[w->several[c->several + i]].reach = 0;
     for (size_t k = 0; k < w->ranks->axes; k++) {
         const double *place = w->ranks->axis[k].place;
-        double high = place[c->high[k]], inverse = ki_inverse_width(w, c, k);
+        double high = place[c->high[k]], scale = ki_reach_scale(w, c, k);
         ki_span open = ki_open_entries(w, c, k);
         size_t pillars = 0;
 
@@ -38,7 +42,8 @@ static void measure_gaps(ki_worker *w, const ki_cell *c)
             ki_standing *s = &w->standing[w->entry[i].point];
 
             *gap = high - place[w->entry[i].rank];
-            s->reach += (float)(1.0 - *gap++ * inverse);
+            s->reach += KI_REACH - (uint32_t)(*gap++ * scale);
+            s->choice = WHOLE;
             pillars += s->opens > 1;
         }
         gap += c->end[k] - open.end + 1;
@@ -50,10 +55,10 @@ static void measure_gaps(ki_worker *w, const ki_cell *c)
  * since then most corners have it inside. */
 static void weigh(ki_worker *w, const ki_cell *c)
 {
-    for (size_t i = 0; i < c->lives; i++) {
-        ki_standing *s = &w->standing[w->live[c->live + i]];
+    for (size_t i = 0; i < c->severals; i++) {
+        ki_standing *s = &w->standing[w->several[c->several + i]];
 
-        s->choice = ((s->opens == 1) | (s->reach < 1.0f)) ? WHOLE : 0;
+        s->choice = s->reach < KI_REACH ? WHOLE : 0;
     }
 }
 
@@ -61,23 +66,23 @@ static void weigh(ki_worker *w, const ki_cell *c)
  * that is inside there, 0 for one that is outside along two axes or more. */
 static void reweigh(ki_worker *w, const ki_cell *c, uint32_t round)
 {
-    const uint32_t *live = w->live + c->live;
+    const uint32_t *several = w->several + c->several;
 
-    for (size_t i = 0; i < c->lives; i++)
-        w->standing[live[i]].reach = 0.0f;
+    for (size_t i = 0; i < c->severals; i++)
+        w->standing[several[i]].reach = 0;
     for (size_t k = 0; k < w->ranks->axes; k++) {
         ki_span open = ki_open_entries(w, c, k);
 
         /* From the upper end: those that are outside along k. */
         for (size_t i = open.end;
              i-- > open.begin && w->entry[i].rank >= w->best_rank[k];)
-            w->standing[w->entry[i].point].reach += 1.0f;
+            w->standing[w->entry[i].point].reach++;
     }
-    for (size_t i = 0; i < c->lives; i++) {
-        ki_standing *s = &w->standing[live[i]];
-        int goal = s->reach == 0.0f ? WHOLE : 0, choice = (int)s->choice;
+    for (size_t i = 0; i < c->severals; i++) {
+        ki_standing *s = &w->standing[several[i]];
+        int goal = s->reach == 0 ? WHOLE : 0, choice = (int)s->choice;
 
-        if (s->opens > 1 && s->reach != 1.0f)
+        if (s->reach != 1)
             s->choice = (uint32_t)(choice + (goal - choice) / (int)(round + 1));
     }
 }

@@ -22,15 +22,16 @@ static const uint32_t OUT = (uint32_t)1 << 31; /* in the log: went out, not in *
 
 static bool went(ki_worker *w, uint32_t change)
 {
-    if (ki_grow((void **)&w->log, &w->room_log, w->logged + 1, sizeof *w->log) != 0)
+    if (w->logged == w->room_log &&
+        ki_grow((void **)&w->log, &w->room_log, w->logged + 1, sizeof *w->log) != 0)
         return false;
     w->log[w->logged++] = change;
     return true;
 }
 
-static bool go_out(ki_worker *w, uint32_t point)
+static bool go_out(ki_worker *w, ki_cell *c, uint32_t point)
 {
-    w->standing[point].outs++;
+    if (w->standing[point].outs++ == 0) c->within--;
     return went(w, point | OUT);
 }
 
@@ -50,11 +51,11 @@ static bool lower_high(ki_worker *w, ki_cell *c, size_t k, uint32_t high)
     size_t end = c->end[k], begin = c->begin[k];
 
     for (; end > begin && e[end - 1].rank > high; end--)
-        if (e[end - 1].rank + shift <= before && !go_out(w, e[end - 1].point))
+        if (e[end - 1].rank + shift <= before && !go_out(w, c, e[end - 1].point))
             return false;
     if (shift > 0)
         for (size_t i = end; i > begin && e[i - 1].rank == high; i--)
-            if (!go_out(w, e[i - 1].point)) return false;
+            if (!go_out(w, c, e[i - 1].point)) return false;
     c->stale = true;
     c->end[k] = end;
     c->high[k] = high;
@@ -113,39 +114,41 @@ static bool copy_lists(ki_worker *w, ki_cell *c)
     return true;
 }
 
-/* Drop from the live points those that went out, or in along every axis. */
-static bool copy_live(ki_worker *w, ki_cell *c, size_t at)
+/* Drop from the points open along several axes those that no longer are, or went
+ * out. */
+static bool copy_several(ki_worker *w, ki_cell *c, size_t at)
 {
     uint32_t *to;
 
-    if (ki_grow((void **)&w->live, &w->room_live, at + c->lives + 1,
-                sizeof *w->live) != 0)
+    if (ki_grow((void **)&w->several, &w->room_several, at + c->severals + 1,
+                sizeof *w->several) != 0)
         return false;
-    to = w->live + at;
-    for (const uint32_t *p = w->live + c->live, *end = p + c->lives; p < end; p++) {
+    to = w->several + at;
+    for (const uint32_t *p = w->several + c->several, *end = p + c->severals;
+         p < end; p++) {
         *to = *p;
-        to += (w->standing[*p].outs == 0) & (w->standing[*p].opens > 0);
+        to += (w->standing[*p].outs == 0) & (w->standing[*p].opens > 1);
     }
-    c->live = at;
-    c->lives = (size_t)(to - (w->live + at));
+    c->several = at;
+    c->severals = (size_t)(to - (w->several + at));
     return true;
 }
 
-/* Where the copies of c go: behind what its parent needs.  In c->live the copy
+/* Where the copies of c go: behind what its parent needs.  In c->several the copy
  * may overlap the original, which it only shortens. */
-static size_t live_place(const ki_worker *w, const ki_cell *c)
+static size_t several_place(const ki_worker *w, const ki_cell *c)
 {
     const ki_cell *parent = c > w->cell ? c - 1 : NULL;
 
-    return parent != NULL ? parent->live + parent->lives : 0;
+    return parent != NULL ? parent->several + parent->severals : 0;
 }
 
-/* Make the lists and the live points hold what they should. */
+/* Make the lists hold what they should. */
 static bool compact(ki_worker *w, ki_cell *c)
 {
     if (c->compact == w->logged) return true;
     if (c->stale && !copy_lists(w, c)) return false;
-    if (!copy_live(w, c, live_place(w, c))) return false;
+    if (!copy_several(w, c, several_place(w, c))) return false;
     c->stale = false;
     c->compact = w->logged;
     return true;
@@ -252,9 +255,10 @@ ki_cell *ki_cell_enter(ki_worker *w, size_t depth)
     memcpy(c->high, from->high, axes * sizeof *c->high);
     memcpy(c->begin, from->begin, axes * sizeof *c->begin);
     memcpy(c->end, from->end, axes * sizeof *c->end);
-    c->live = from->live;
-    c->lives = from->lives;
+    c->several = from->several;
+    c->severals = from->severals;
     c->inside = from->inside;
+    c->within = from->within;
     c->free_entry = from->begin[0];
     for (size_t k = 0; k < axes; k++)
         if (from->end[k] > c->free_entry) c->free_entry = from->end[k];
@@ -275,7 +279,8 @@ static bool enter_root(ki_worker *w)
     if (c == NULL || __builtin_mul_overflow(r->n, r->axes, &all) ||
         ki_grow((void **)&w->entry, &w->room_entries, all + 1, sizeof *w->entry) !=
             0 ||
-        ki_grow((void **)&w->live, &w->room_live, r->n + 1, sizeof *w->live) != 0)
+        ki_grow((void **)&w->several, &w->room_several, r->n + 1,
+                sizeof *w->several) != 0)
         return false;
     for (size_t k = 0; k < r->axes; k++) {
         const uint32_t *rank = r->rank + k * r->n;
@@ -298,16 +303,15 @@ static bool enter_root(ki_worker *w)
         }
         c->end[k] = at;
     }
-    c->live = c->lives = c->inside = c->undo = c->compact = 0;
+    c->several = c->severals = c->inside = c->within = c->undo = c->compact = 0;
     c->stale = false;
     c->free_entry = at;
     c->parts = 0;
     for (size_t i = 0; i < r->n; i++) {
         if (w->standing[i].outs > 0) continue;
-        if (w->standing[i].opens > 0)
-            w->live[c->lives++] = (uint32_t)i;
-        else
-            c->inside++;
+        c->within++;
+        c->inside += w->standing[i].opens == 0;
+        if (w->standing[i].opens > 1) w->several[c->severals++] = (uint32_t)i;
     }
     return true;
 }
@@ -340,7 +344,7 @@ void ki_worker_end(ki_worker *w)
         free(w->cell[i].begin);
     free(w->cell);
     free(w->entry);
-    free(w->live);
+    free(w->several);
     free(w->log);
     free(w->standing);
     free(w->new_low);

@@ -68,7 +68,7 @@ typedef struct ki_entry {
  * it; together, since whoever asks for one of these asks for all. */
 typedef struct ki_standing {
     uint32_t outs, opens; /* axes along which it is out; open */
-    float reach;          /* how far up its open ranges it stands */
+    uint32_t reach;       /* how far up its open ranges it stands */
     uint32_t choice;      /* its weight (open boxes) or axis (closed ones) */
 } ki_standing;
 
@@ -80,13 +80,13 @@ typedef struct ki_cell {
                            * points not out along any other axis whose rank lies
                            * in [low, high], by rank (open boxes: at rank high also
                            * some that have gone out along another since) */
-    size_t live, lives;   /* in the worker's live: points nowhere out and open
-                           * along an axis at least */
-    size_t inside;        /* points in along every axis */
-    size_t free_entry;    /* where in the entries its own lists go */
-    size_t undo;          /* length of the worker's log before this cell */
-    size_t compact;       /* and when its lists were last free of other points */
-    bool stale;           /* whether points went out since then */
+    size_t several, severals; /* in the worker's several: points open along more
+                               * than one axis and nowhere out */
+    size_t inside, within;    /* points in along every axis; points nowhere out */
+    size_t free_entry;        /* where in the entries its own lists go */
+    size_t undo;              /* length of the worker's log before this cell */
+    size_t compact; /* and when its lists were last free of other points */
+    bool stale;     /* whether points went out since then */
     double bound;
     size_t split; /* the axis to split, at `middle` */
     uint32_t middle;
@@ -111,8 +111,8 @@ typedef struct ki_worker {
     size_t cells, room_cells;
     ki_entry *entry;
     size_t room_entries;
-    uint32_t *live;
-    size_t room_live;
+    uint32_t *several;
+    size_t room_several;
     uint32_t *log; /* points whose standing changed, to take it back */
     size_t logged, room_log;
 
@@ -198,8 +198,10 @@ typedef struct ki_span {
 
 ki_span ki_open_entries(const ki_worker *w, const ki_cell *c, size_t k);
 
-/* 1 over the length of the range of axis k, in places; 0 if it has none. */
-double ki_inverse_width(const ki_worker *w, const ki_cell *c, size_t k);
+/* KI_REACH over the length of the range of axis k, in places; 0 if it has none.  The
+ * unit of reach: a whole range. */
+enum { KI_REACH = 1 << 16 };
+double ki_reach_scale(const ki_worker *w, const ki_cell *c, size_t k);
 
 /* Keep of the new ranges what lies between the first and the last rank whose term
  * is within slack of the best: with any other, even the best of all other axes

@@ -86,8 +86,7 @@ static double slope_to(const fixture *f, const ki_cell *c, const uint32_t *z)
 static void check_line(fixture *f, const ki_cell *c, double target)
 {
     double n = (double)f->p.n;
-    double inside = (double)c->inside / n,
-           most = (double)(c->inside + c->lives) / n;
+    double inside = (double)c->inside / n, most = (double)c->within / n;
     ki_slopes line;
     uint32_t z[2 * DIMS];
     size_t count;

@@ -188,7 +188,7 @@ static ki_standing recount(const fixture *f, const ki_cell *c, size_t i)
 /* A point that is out need not be counted along every further axis. */
 static void check_standing(const fixture *f, const ki_cell *c)
 {
-    size_t inside = 0;
+    size_t inside = 0, within = 0;
 
     for (size_t i = 0; i < f->p.n; i++) {
         ki_standing is = f->w.standing[i], truth = recount(f, c, i);
@@ -197,22 +197,26 @@ static void check_standing(const fixture *f, const ki_cell *c)
                 "outs");
         require(f, truth.outs > 0 || is.opens == truth.opens, "opens");
         inside += truth.outs == 0 && truth.opens == 0;
+        within += truth.outs == 0;
     }
     require(f, c->inside == inside, "inside");
+    require(f, c->within == within, "within");
 }
 
-static void check_live(const fixture *f, const ki_cell *c)
+static void check_several(const fixture *f, const ki_cell *c)
 {
+    const uint32_t *several = f->w.several + c->several;
     bool seen[POINTS] = {false};
 
-    for (size_t j = 0; j < c->lives; j++) {
-        require(f, !seen[f->w.live[c->live + j]], "a point lives twice");
-        seen[f->w.live[c->live + j]] = true;
+    for (size_t j = 0; j < c->severals; j++) {
+        require(f, !seen[several[j]], "a point is there twice");
+        seen[several[j]] = true;
     }
     for (size_t i = 0; i < f->p.n; i++) {
         ki_standing s = recount(f, c, i);
 
-        require(f, seen[i] == (s.outs == 0 && s.opens > 0), "live points");
+        require(f, seen[i] == (s.outs == 0 && s.opens > 1),
+                "points open along several axes");
     }
 }
 
@@ -246,7 +250,7 @@ static void check_list(fixture *f, const ki_cell *c, size_t k)
 static void check_state(fixture *f, const ki_cell *c)
 {
     check_standing(f, c);
-    check_live(f, c);
+    check_several(f, c);
     for (size_t k = 0; k < f->p.dim; k++)
         check_list(f, c, k);
 }
@@ -283,8 +287,8 @@ static bool narrow(fixture *f, ki_cell *c)
 /* The units of tree_bound_closed.c and tree_bound_open.c. */
 enum { CHARGE = 1 << 15, WEIGHT = 256 };
 
-/* The weight of every live point is one of 0 to 1 (open boxes), or its shares sum
- * to a whole or more over the axes where it is open. */
+/* The weight of every point that is open is one of 0 to 1 (open boxes), or its
+ * shares sum to a whole or more over the axes where it is open. */
 static void check_weights(fixture *f, const ki_cell *c)
 {
     const uint16_t *share = f->w.share;
@@ -297,9 +301,11 @@ static void check_weights(fixture *f, const ki_cell *c)
             sum[f->w.entry[i].point] += *share;
             moved |= *share > 0 && *share < CHARGE;
         }
-    for (size_t j = 0; j < c->lives; j++) {
-        uint32_t i = f->w.live[c->live + j], weight = f->w.standing[i].choice;
+    for (size_t i = 0; i < f->p.n; i++) {
+        ki_standing truth = recount(f, c, i);
+        uint32_t weight = f->w.standing[i].choice;
 
+        if (truth.outs > 0 || truth.opens == 0) continue;
         require(f, f->ranks->closed ? sum[i] >= CHARGE : weight <= WEIGHT,
                 "weights");
         moved |= !f->ranks->closed && weight > 0 && weight < WEIGHT;
