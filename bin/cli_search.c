@@ -67,14 +67,14 @@ void cli_search_option(cli_search *s, int c)
 static void print_header(cli_search *s)
 {
     const char *input = s->input->several ? "input\t" : "";
+    const char *interval = s->parts > 1 ? "part_lower\tpart_upper" : "lower\tupper";
 
     if (cli_quiet() || s->header) return;
     s->header = true;
     if (s->trace)
-        printf("# %sseconds\tsteps\tlower\tupper\n", input);
+        printf("# %sseconds\tsteps\t%s\n", input, interval);
     else
-        printf("# %sn\tdim\t%s%s\n", input,
-               s->parts > 1 ? "part_lower\tpart_upper" : "lower\tupper",
+        printf("# %sn\tdim\t%s%s\n", input, interval,
                s->witness ? s->witness_columns : "");
 }
 

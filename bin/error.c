@@ -49,6 +49,45 @@ static void add_total(totals *t, koksma_curve_total c)
     t->largest = fmax(t->largest, c.largest);
 }
 
+/* What the input says that the values are of; exact and variance: nan if it does
+ * not. */
+typedef struct subject {
+    char integrand[64];
+    double exact, variance;
+} subject;
+
+static subject subject_of(const char *about)
+{
+    subject s = {"", nan(""), nan("")};
+
+    koksma_about_word(about, "integrand", s.integrand, sizeof s.integrand);
+    koksma_about_number(about, "exact", &s.exact);
+    koksma_about_number(about, "variance", &s.variance);
+    return s;
+}
+
+static bool differ(double x, double y) { return x != y && !(isnan(x) && isnan(y)); }
+
+/* The header speaks of one integrand, and so does its sigma. */
+static void check_subject(subject first, const error_header *h, const char *label)
+{
+    subject s = subject_of(h->about);
+
+    if (strcmp(s.integrand, first.integrand) != 0 || differ(s.exact, first.exact) ||
+        differ(s.variance, first.variance))
+        cli_fail("set %s is of another integrand than the first; a table is of one",
+                 label);
+}
+
+/* The integral, if it is the input that says it. */
+static void read_exact(error_header *h)
+{
+    if (!koksma_about_number(h->about, "exact", &h->exact))
+        cli_fail("the input does not say the exact integral: give --exact VALUE");
+    if (!isfinite(h->exact))
+        cli_fail("the input says exact=%g, which is no finite number", h->exact);
+}
+
 /* Read the set's values into the curve.  The mean will be measured from the first
  * value there is. */
 static void read_curve(koksma_curve *curve, cli_input *input, size_t columns,
@@ -122,6 +161,7 @@ static void run(cli_input *input, const error_options *o, error_header h)
     static const char columns_of_rows[] = "set\tN\terror\ttail\tmc";
     error_sets all = {0};
     totals t = {0};
+    subject of = {0};
     uint64_t last;
     koksma_curve *curve = open_curve(o, &last);
     bool keep = o->summary || o->mean;
@@ -133,10 +173,9 @@ static void run(cli_input *input, const error_options *o, error_header h)
         size_t count;
 
         snprintf(h.about, sizeof h.about, "%s", koksma_reader_about(input->reader));
-        if (!o->told && !o->mean &&
-            !koksma_about_number(h.about, "exact", &h.exact))
-            cli_fail(
-                "the input does not say the exact integral: give --exact VALUE");
+        if (first) of = subject_of(h.about);
+        check_subject(of, &h, input->label);
+        if (!o->told && !o->mean) read_exact(&h);
         read_curve(curve, input, columns, &h.exact, o->mean && first);
         if (koksma_curve_rows(curve, &rows, &count, &err))
             cli_fail_input(input, &err);

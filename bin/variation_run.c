@@ -3,6 +3,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
+#include <poll.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,7 +13,7 @@
 
 #include "cli.h"
 
-enum { NODES_USUAL = 1 << 16, NODES_MOST = 1 << 28 };
+enum { NODES_USUAL = 1 << 16, NODES_MOST = 1 << 28, TEXT = 1 << 14 };
 
 /* One run: a process writes the nodes, another is the program, and this one reads,
  * so that none waits for one that waits for it. */
@@ -23,7 +24,9 @@ typedef struct run {
     double value, values; /* V of the last grid that is done; how many were read */
     cli_watch *watch;
     pid_t writer, program;
-    FILE *in;
+    int in;                  /* the program's output, */
+    char *text;              /* what of it was read, */
+    size_t begin, end, room; /* and what of that is still to be looked at */
 } run;
 
 /* ---- Two processes ----------------------------------------------------------- */
@@ -95,8 +98,8 @@ static void start(run *r)
         _exit(out == NULL || write_nodes(out, r->dim, r->k));
     }
     close(nodes[1]);
-    r->in = fdopen(values[0], "r");
-    if (r->in == NULL) cli_fail("not enough memory");
+    r->in = values[0];
+    r->begin = r->end = 0;
 }
 
 /* Wait for both. */
@@ -104,7 +107,7 @@ static void finish(run *r)
 {
     int status;
 
-    fclose(r->in);
+    close(r->in);
     waitpid(r->writer, NULL, 0);
     waitpid(r->program, &status, 0);
     if (WIFSIGNALED(status))
@@ -119,7 +122,7 @@ static void abandon(run *r)
 {
     kill(r->program, SIGTERM);
     kill(r->writer, SIGTERM);
-    fclose(r->in);
+    close(r->in);
     waitpid(r->writer, NULL, 0);
     waitpid(r->program, NULL, 0);
 }
@@ -151,15 +154,65 @@ static bool told_to_stop(const run *r)
     return cli_watch_progress(r->watch, r->value, r->value, r->values) != 0;
 }
 
+/* Wait until the program prints, or ends, looking now and then whether to stop. */
+static bool wait_for_output(const run *r)
+{
+    enum { PATIENCE = 50 }; /* milliseconds */
+    struct pollfd in = {.fd = r->in, .events = POLLIN};
+
+    while (!told_to_stop(r))
+        if (poll(&in, 1, PATIENCE) > 0) return true;
+    return false;
+}
+
+static void grow_text(run *r)
+{
+    r->room += r->room + TEXT;
+    r->text = realloc(r->text, r->room);
+    if (r->text == NULL) cli_fail("not enough memory");
+}
+
+/* Read more behind what is left of the text.  Returns false at its end. */
+static bool read_more(run *r)
+{
+    ssize_t got;
+
+    r->end -= r->begin;
+    memmove(r->text, r->text + r->begin, r->end);
+    r->begin = 0;
+    if (r->room - r->end < TEXT / 2) grow_text(r);
+    do { /* the last byte stays free, for the end of the last line */
+        if (!wait_for_output(r)) return false;
+        got = read(r->in, r->text + r->end, r->room - r->end - 1);
+    } while (got < 0 && errno == EINTR);
+    if (got > 0) r->end += (size_t)got;
+    return got > 0;
+}
+
+/* The next line, or NULL at the end or when told to stop.  Not by stdio, which would
+ * wait for a silent program without looking up. */
+static char *next_line(run *r)
+{
+    char *line, *newline;
+
+    while ((newline = memchr(r->text + r->begin, '\n', r->end - r->begin)) == NULL)
+        if (!read_more(r)) break;
+    if (newline == NULL && (r->begin == r->end || told_to_stop(r))) return NULL;
+    if (newline == NULL) newline = r->text + r->end++;
+    *newline = '\0';
+    line = r->text + r->begin;
+    r->begin = (size_t)(newline + 1 - r->text);
+    return line;
+}
+
 /* Comments and blank lines are no values.  Returns whether all were read. */
 static bool read_values(run *r, koksma_variation_grid *g)
 {
-    char *line = NULL;
-    size_t room = 0;
+    char *line;
     double count = 0.0;
     koksma_error err;
 
-    while (getline(&line, &room, r->in) >= 0) {
+    while ((line = next_line(r)) != NULL) {
         double v;
 
         if (line[0] == '#' || line[strspn(line, " \t\r\n")] == '\0') continue;
@@ -168,7 +221,6 @@ static bool read_values(run *r, koksma_variation_grid *g)
         v = read_value(r, line, count);
         if (koksma_variation_add(g, &v, 1, &err)) cli_fail_as(&err);
     }
-    free(line);
     if (told_to_stop(r)) { /* an interrupt may have ended the program too */
         abandon(r);
         return false;
@@ -215,15 +267,18 @@ bool variation_run(koksma_variation_result *out, koksma_estimate *faces,
     run r = {.command = command, .dim = dim, .watch = watch};
     double most = cells > 0 ? NODES_MOST : NODES_USUAL;
     size_t first = cells == 2 || nodes_of(4, dim) > most ? 2 : 4;
+    bool done = false;
 
     if (nodes_of(cells > 0 ? cells : 2, dim) > NODES_MOST)
         cli_fail("%zu cells on each of %zu axes have %.3g nodes, and a program is "
                  "asked for 2^28 at most",
                  cells > 0 ? cells : 2, dim, nodes_of(cells > 0 ? cells : 2, dim));
+    grow_text(&r);
     for (r.k = first; r.k == first || nodes_of(r.k, dim) <= most; r.k *= 2) {
         r.nodes = nodes_of(r.k, dim);
-        if (!one_round(out, faces, &r)) return false;
-        if (out->trend == KOKSMA_TREND_CONVERGED || r.k == cells) break;
+        done = one_round(out, faces, &r);
+        if (!done || out->trend == KOKSMA_TREND_CONVERGED || r.k == cells) break;
     }
-    return true;
+    free(r.text);
+    return done;
 }

@@ -65,7 +65,8 @@ typedef struct koksma_box_opts {
     size_t threads;     /* of the sweep and the tree; 0: one a processor */
     size_t part, parts; /* 1 <= part <= parts: they do this share of the work, and
                          * find a part_lower and a part_upper, whose maxima over all
-                         * parts are value; parts 0 or 1: all of it */
+                         * parts are value, if one build on one kind of processor
+                         * does all; parts 0 or 1: all of it */
     double work;        /* stop after about so many steps; 0: never */
     uint64_t seed;      /* of the search: it fixes every bit of the result */
     /* Called a few times a second, by the first two also when value improves; by

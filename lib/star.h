@@ -59,7 +59,8 @@ typedef struct koksma_star_opts {
     size_t threads;     /* of the tree and the lines; 0: one a processor */
     size_t part, parts; /* 1 <= part <= parts: they do this share of the work,
                          * and find a part_lower and a part_upper, whose maxima
-                         * over all parts are value; parts 0 or 1: all of it */
+                         * over all parts are value, if one build on one kind of
+                         * processor does all; parts 0 or 1: all of it */
     double work;   /* stop after about so many steps; 0: after KOKSMA_STAR_WORK for
                     * the sweep, never for the others */
     uint64_t seed; /* of the search: it fixes every bit of the result */

@@ -1,6 +1,5 @@
 #include <float.h>
 #include <math.h>
-#include <string.h>
 
 #include "num_kernels.h"
 #include "tree_best_kernels.h"
@@ -125,7 +124,8 @@ void ki_best_offer(ki_best *b, const double *corner, size_t inside, bool closed)
     if ((!better && !tie) || is_loose(b, corner, closed, vol.hi)) return;
     if (tie) excess.err = b->excess.err = fmax(excess.err, b->excess.err);
     if (better) {
-        memcpy(b->witness.corner, corner, b->sides * sizeof *corner);
+        for (size_t s = 0; s < b->sides; s++)
+            b->witness.corner[s] = corner[s] + 0.0; /* not -0 */
         b->witness.inside = inside;
         b->witness.closed = closed;
         b->excess = excess;

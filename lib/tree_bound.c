@@ -21,10 +21,10 @@
  * to v: one walk along each list.  In a run of equal ranks one end has the right K,
  * and the other entries only claim less.
  *
- * All weights are multiples of 1/256, so that every K is exact.  They start as 0 or
- * 1; from 9 axes on it pays to move them, a few times, towards what is exact at the
- * corner that the bound found best (a subgradient step on the dual), and every
- * round bounds anew.
+ * All weights are multiples of 2^-8 (open boxes) or 2^-15 (closed ones), so that
+ * every K is exact.  They start as 0 or 1; from 9 axes on it pays to move them, a few
+ * times, towards what is exact at the corner that the bound found best (a
+ * subgradient step on the dual), and every round bounds anew.
  *
  * Each term takes four roundings and each sum over the axes one an axis: the margin
  * of the line covers them. */

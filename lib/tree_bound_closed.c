@@ -78,7 +78,8 @@ static void move_charges(ki_worker *w, const ki_cell *c, size_t k, uint16_t *sha
 
         s -= choice == INSIDE ? 0 : s * part >> 16;
         s += choice == k ? gain : 0;
-        share[i] = (uint16_t)s;
+        share[i] =
+            (uint16_t)(s < UINT16_MAX ? s : UINT16_MAX); /* after 40000 rounds */
     }
 }
 

@@ -67,9 +67,11 @@ static void rank_axis(ki_ranks *r, koksma_points p, size_t k, bench *w)
         r->rank[k * p.n + r->order[k * p.n + j]] = top;
     }
     if (!r->closed && axis->value[top] != face) axis->value[++top] = face;
-    for (uint32_t j = 1; j <= top; j++)
-        axis->place[j] = place_of(r, k, axis->value[j]);
     axis->place[0] = -HUGE_VAL;
+    /* A logarithm that is off by less than its bound need not grow with its value;
+     * the running maximum does, and is no further off. */
+    for (uint32_t j = 1; j <= top; j++)
+        axis->place[j] = fmax(place_of(r, k, axis->value[j]), axis->place[j - 1]);
     axis->top = top;
 }
 

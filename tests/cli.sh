@@ -166,6 +166,13 @@ t eval-sets-differ 1 "0${tab}0${tab}0" \
 t no-exact 1 "" \
     'koksma-error: the input does not say the exact integral: give --exact VALUE' \
     'echo 0 1 | koksma-error'
+t exact-nan 1 "" 'koksma-error: the input says exact=nan, which is no finite number' \
+    'printf "# koksma: exact=nan\n0 1\n" | koksma-error'
+has two-integrands 1 'set other:1 is of another integrand than the first; a table is of one' \
+    'koksma-points halton -n 8 >p; koksma-eval f2 p >one; koksma-eval gaussian p >other
+     koksma-error one other'
+t no-minus-zero 0 "1${tab}2${tab}1${tab}1${tab}closed${tab}1${tab}0${tab}0" "" \
+    'echo -0. -0 | koksma-star -w -q -m sweep'
 t no-value 1 "" 'koksma-error: line 1: 1 column, but a point and its value take at least 2' \
     'echo 1 | koksma-error --exact 0'
 t unequal 1 "" \
@@ -329,9 +336,10 @@ t closed-pipe 0 "# koksma-points halton -n 2^40" "" 'koksma-points halton -n 2^4
 has time-limit 3 '^5000	12	0\.' 'koksma-points random -d 12 -n 5000 | koksma-star -t 0.05 -q'
 has interrupt 3 '	1$' \
     'koksma-points random -d 12 -n 5000 >p
-     sh -c "trap - INT; exec koksma-star -q p" & sleep 1; kill -INT $!; wait $!'
+     sh -c "trap - INT; exec koksma-star -q p" & ./caught $!; kill -INT $!; wait $!'
 
 has interrupt-twice 3 '	1$' \
-    'sh -c "trap - INT; exec koksma-star -q p" & sleep 1; kill -INT $!; kill -INT $!; wait $!'
+    'sh -c "trap - INT; exec koksma-star -q p" & ./caught $!
+     kill -INT $!; kill -INT $!; wait $!'
 
 rows_end

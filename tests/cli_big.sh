@@ -35,6 +35,8 @@ if sh -c 'ulimit -v 60000 && koksma-star -V; exit $?' >/dev/null 2>&1; then
            printf "%-117s\n" "{'"'descr': '<f8', 'fortran_order': False, 'shape': (8192, 16384), }"'"
            head -c 1073741824 /dev/zero; } | ./small koksma-variation -q |
          cut -f 1,7'
+else
+    echo "left out: the tools do not start in 60 MB"
 fi
 
 # ---- Lines of 2.2 GB ---------------------------------------------------------------
@@ -58,6 +60,8 @@ if [ "${free:-0}" -ge 5 ]; then
     t long-field 0 "power${tab}-1" "" \
         '{ echo "# N error"; printf "16 4 "; ./long x; printf "\n64 1\n256 .25\n"; } |
          koksma-fit -q | cut -f 1,2'
+else
+    echo "left out: the lines of gigabytes take 5 GB"
 fi
 
 rows_end

@@ -35,7 +35,7 @@ t deadline 3 "nan" "koksma-cells: stopped before all cells were counted" \
     'koksma-cells ball -n 2^60 -t .2 -q >o; s=$?; cut -f 4 o
      awk "{ exit !(\$5 > 0 && \$5 < \$6) }" o && exit $s'
 t interrupt 3 "nan" "koksma-cells: stopped before all cells were counted" \
-    '{ koksma-cells ball -n 2^60 -q >o & p=$!; sleep 1; kill -INT $p; wait $p; s=$?
+    '{ koksma-cells ball -n 2^60 -q -t 60 >o & p=$!; ./caught $p; kill -INT $p; wait $p; s=$?
        cut -f 4 o; exit $s; }'
 
 # ---- Lines ---------------------------------------------------------------------

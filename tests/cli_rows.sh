@@ -7,6 +7,20 @@ cd "$scratch" || exit 1
 tab=$(printf '\t')
 failures=0
 
+# ./caught PID: wait until that process catches interrupts, for ten seconds at most;
+# where the system does not say so, a while.
+cat >caught <<'END'
+#!/bin/sh
+for _ in $(seq 1000); do
+    case $(sed -n 's/^SigCgt:.*\(.\)$/\1/p' "/proc/$1/status" 2>/dev/null) in
+    [2367abefABEF]) exit ;;
+    '') exec sleep 0.3 ;;
+    esac
+    sleep 0.01
+done
+END
+chmod +x caught
+
 # t NAME STATUS STDOUT STDERR COMMAND: run COMMAND and compare all three.
 t() {
     sh -c "$5" >out 2>err </dev/null

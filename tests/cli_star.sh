@@ -38,6 +38,8 @@ for threads in 1 2; do
 done
 t trace-sweep 0 "" "" 'koksma-star -q -m sweep few >whole
     koksma-star --trace -m sweep few | sed "2i0\t0\t0\t1" >trace; sh ./follows trace'
+has trace-share 0 '^# seconds	steps	part_lower	part_upper$' \
+    'koksma-star --trace --part 1/3 few'
 t trace-sets 0 "# input${tab}seconds${tab}steps${tab}lower${tab}upper
 1
 2" "" '{ cat few; echo; cat few; } | koksma-star --trace | sed "1!s/\t.*//" | uniq'

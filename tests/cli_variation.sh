@@ -123,6 +123,11 @@ has interrupt 3 'stopped; the finest grid that is done has [0-9]* cells an axis'
         -m grid --cells 2^15'
 has stopped-program 3 '^2	[0-9]*	[0-9]*	' \
     "koksma-variation -d 2 --cells 4096 -t 1 --run 'awk \"{print (\\\$1 + \\\$2 < 1)}\"'"
+# A program that says nothing is not waited for.
+has silent-program 3 'koksma-variation: stopped' \
+    'timeout 20 koksma-variation -d 2 -t 0.2 --run "exec sleep 60"'
+has last-line-cut 0 '^2	8	3	3	3	' \
+    "koksma-variation -d 2 -q --run 'awk \"{ v = v sep \\\$1 * \\\$2; sep = RS } END { printf v }\"'"
 t stopped-faces 3 "" "koksma-variation: stopped" \
     'koksma-variation f2 -m grid --cells 2^15 -t 0.001 --faces 2>said
      status=$?; sed "s/;.*//" said >&2; exit $status'

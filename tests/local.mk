@@ -88,7 +88,7 @@ check-sanitize:
 	$(MKDIR_P) sanitize
 	cd sanitize && { test -f Makefile || \
 	  $(abs_top_srcdir)/configure --disable-shared CC='$(CC)' CFLAGS='$(SANITIZE)'; } && \
-	  $(MAKE) check
+	  CK_TIMEOUT_MULTIPLIER=10 $(MAKE) check
 
 # And another, in threads/: what runs in several threads at once, and nothing else,
 # since the thread sanitizer makes everything ten times as slow.  Cases tagged slow

@@ -26,6 +26,8 @@ gcc-O3      gcc-12                  -                   -                    -O3
 clang-O0    clang-14                -                   -                    -O0
 clang-O2    clang-14                -                   -                    -O2
 clang-O3    clang-14                -                   -                    -O3
+gcc-own     gcc-12                  -                   -                    -O3 -march=native
+clang-own   clang-14                -                   -                    -O3 -march=native
 x87         gcc-12                  i686-linux-gnu      -                    -O2
 m32         clang-16                i686-linux-gnu      -                    -O2
 musl        musl-gcc                x86_64-linux-musl   -                    -O2
@@ -160,6 +162,7 @@ make_sets() { # by this machine's own build
         for family in halton random; do
             koksma-points $family -d 2 -n 100 --start 1 >$family-2d.txt
             koksma-points $family -d 3 -n 60 --start 1 >$family-3d.txt
+            koksma-points $family -d 2 -n 1000 --start 1 >$family-1000-2d.txt
         done
         koksma-points halton -d 2 -n 100 --npy >little-2d.npy
     )
@@ -172,7 +175,8 @@ compare() { # with the native answers
     if cmp -s "$folder/native.answers" "$folder/$name.answers"; then
         echo "same answers"
     else
-        echo "answers differ: diff $folder/native.answers $folder/$name.answers"
+        echo "ANSWERS DIFFER: diff $folder/native.answers $folder/$name.answers"
+        return 1
     fi
 }
 
@@ -196,12 +200,15 @@ refused() {
         echo "$name       FAILED: configure takes x87 arithmetic"
         return 1
     fi
-    grep -q 'need operations that round once' "$folder/$name.log" || return 1
+    if ! grep -q 'need operations that round once' "$folder/$name.log"; then
+        echo "$name       FAILED: configure, for another reason; see $folder/$name.log"
+        return 1
+    fi
     echo "$name       refused by configure, as it should be"
 }
 
 port() {
-    local begin=$SECONDS result note=''
+    local begin=$SECONDS result note='' same
     build=$folder/$name root=$folder/root-$name
     case $name in
     m32) compiler=$(x86_32 "$compiler" '-msse2 -mfpmath=sse') ;;
@@ -228,8 +235,9 @@ port() {
     fi
     (cd "$build" && run_tests) >"$folder/$name.check" 2>&1
     result=$?
+    same=$(compare) || result=1
     printf '%-9s %s%s; %s; %d s\n' "$name" "$(counts "$folder/$name.check")" "$note" \
-        "$(compare)" $((SECONDS - begin))
+        "$same" $((SECONDS - begin))
     return $result
 }
 

@@ -511,7 +511,8 @@ START_TEST(tolerance_and_stages)
 {
     koksma_points p = points_of(&larger[1]);
     koksma_edge_result exact = solve(p, KOKSMA_EDGE_TREE, 1), r;
-    koksma_edge_opts opts = {.method = KOKSMA_EDGE_TREE, .anytime = true};
+    koksma_edge_opts opts = {
+        .method = KOKSMA_EDGE_TREE, .anytime = true, .threads = 1};
 
     ck_assert_int_eq(koksma_edge(&r, p, &opts, NULL), KOKSMA_OK);
     ck_assert(same(&exact, &r));

@@ -20,7 +20,7 @@ static void check_file(const char *folder, const char *file, size_t dim, size_t 
 {
     char name[4096];
     koksma_set set = {0};
-    koksma_star_opts opts = {.work = most};
+    koksma_star_opts opts = {.work = most, .threads = 1};
     koksma_star_result r = {0};
     koksma_error err = {0};
     koksma_reader *reader;

@@ -48,7 +48,7 @@ static double *points_of(const known *k)
 static bool check_known(const known *k, double work)
 {
     double *x = points_of(k), slack = pow(10.0, -k->digits) + 4e-16;
-    koksma_star_opts opts = {.work = work};
+    koksma_star_opts opts = {.work = work, .threads = 1};
     koksma_star_result r = {0};
     koksma_status status =
         koksma_star(&r, (koksma_points){x, (size_t)k->n, k->dim}, &opts, NULL);
