@@ -188,12 +188,25 @@ static void settle_dim(bound_input *b, const text *t, double dim)
     fail(t, &err);
 }
 
+/* koksma-l2 and koksma-edge write the columns of koksma-star, and say what of. */
+static void check_measure(const text *t, const char *about)
+{
+    koksma_error err = {.status = KOKSMA_EINVAL};
+    char measure[32];
+
+    if (!koksma_about_word(about, "measure", measure, sizeof measure)) return;
+    snprintf(err.text, sizeof err.text,
+             "a table of koksma-%s, which does not bound D*", measure);
+    fail(t, &err);
+}
+
 static bool read_star(bound_input *b, const text *t)
 {
     koksma_table table;
     bool found = columns(&table, t, "n", "upper");
 
     if (found) {
+        check_measure(t, table.about);
         free_curve(&b->star);
         b->star = curve_of(&table, largest);
         settle_dim(b, t, last_of(t, "n", "dim"));

@@ -121,6 +121,12 @@ bad empty 'standard input: no table of koksma-star, koksma-variation or koksma-c
 bad other-dim 'star: 2 coordinates, but the integrand has 3' 'koksma-bound f3 star'
 bad word 'w:2: column 2 is x, not a finite number' \
     'printf "# n upper\n8 x\n" >w; koksma-bound f2 w'
+bad l2 'w: a table of koksma-l2, which does not bound D*' \
+    'echo 1 1 | koksma-l2 >w; koksma-bound sum w'
+bad edge 'w: a table of koksma-edge, which does not bound D*' \
+    'echo 1 1 | koksma-edge -w >w; koksma-bound -d 2 --vhk 1 w'
+t box 0 "3 proved" "" \
+    'echo 1 1 | koksma-box | koksma-bound product - -q | head -n 1 | cut -f 3,4 | tr "\t" " "'
 bad axes 'the surface depends on 3 axes, and there are 2' 'koksma-bound f2 --axes 3'
 has no-dim 2 'name an integrand, or say the dimension by -d' 'koksma-bound'
 has star-alone 2 '^koksma-bound: --star takes -n with the one N that it is D\* of' \
