@@ -44,7 +44,8 @@ static text read_text(const char *file)
     }
     if (in == NULL || ferror(in)) {
         snprintf(err.text, sizeof err.text, "%s%s",
-                 in != NULL ? "cannot read: " : "", strerror(errno));
+                 in != NULL && errno != EISDIR ? "cannot read: " : "",
+                 strerror(errno));
         fail(&t, &err);
     }
     if (!standard) fclose(in);
