@@ -1,5 +1,6 @@
 #include "bound_input.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -189,6 +190,16 @@ static void settle_dim(bound_input *b, const text *t, double dim)
     fail(t, &err);
 }
 
+/* A word of a comment, safe to print. */
+static bool said(const char *about, const char *key, char *word, size_t size)
+{
+    bool found = koksma_about_word(about, key, word, size);
+
+    for (char *c = word; found && *c != '\0'; c++)
+        if (!isgraph((unsigned char)*c)) *c = '?';
+    return found;
+}
+
 _Noreturn static void fail_parameter(const text *t, const char *key,
                                      const char *about, const char *known)
 {
@@ -209,16 +220,15 @@ static void check_integrand(bound_input *b, const text *t, const char *about)
     char name[32], known[32], piece[16], part[16] = "";
     const char *key;
 
-    if (!koksma_about_word(about, "integrand", name, sizeof name)) return;
+    if (!said(about, "integrand", name, sizeof name)) return;
     if (b->about[0] == '\0') snprintf(b->about, sizeof b->about, "%s", about);
-    koksma_about_word(b->about, "integrand", known, sizeof known);
-    koksma_about_word(b->about, "piece", part, sizeof part);
+    said(b->about, "integrand", known, sizeof known);
+    said(b->about, "piece", part, sizeof part);
     if (strcmp(name, known) != 0) {
         snprintf(err.text, sizeof err.text, "of %s, not of %s", name, known);
         fail(t, &err);
     }
-    if (koksma_about_word(about, "piece", piece, sizeof piece) &&
-        strcmp(piece, part) != 0) {
+    if (said(about, "piece", piece, sizeof piece) && strcmp(piece, part) != 0) {
         snprintf(err.text, sizeof err.text, "of the %s piece of %s alone", piece,
                  name);
         fail(t, &err);
@@ -242,7 +252,7 @@ static void check_measure(const text *t, const char *about)
     koksma_error err = {.status = KOKSMA_EINVAL};
     char measure[32];
 
-    if (!koksma_about_word(about, "measure", measure, sizeof measure)) return;
+    if (!said(about, "measure", measure, sizeof measure)) return;
     snprintf(err.text, sizeof err.text,
              "a table of koksma-%s, which does not bound D*", measure);
     fail(t, &err);

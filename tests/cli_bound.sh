@@ -134,6 +134,8 @@ bad other-cells 'cells: of ball, not of f3' 'koksma-bound f3 cells'
 bad of-each-other 'rows: of f2, not of gaussian' 'koksma-bound grid --observe rows'
 bad other-parameter 'rows: a is 0, but the integrand has 0.25' \
     'koksma-bound f2 -a .25 --observe rows'
+bad other-odd 'odd: of a?b, not of f2' \
+    'printf "# koksma: integrand=a\033b\n# N error\n4 .1\n" >odd; koksma-bound f2 --observe odd'
 bad other-bounces 'w: 4 coordinates, but the integrand has 6' \
     'koksma-cells sphere --bounces 2 --lines 50 >w; koksma-bound sphere --bounces 3 w'
 bad other-piece 'standard input: of the smooth piece of f2 alone' \
