@@ -110,6 +110,7 @@ static void add_integrand(bound_options *o, const char *name)
     cli_integrand_choose(i, name);
     if (koksma_integrand_make(&f, &whole, i->row, i->dim, i->param, &err))
         cli_usage("%s", err.text);
+    cli_integrand_about(o->input.about, i->row, &f, NULL);
     to->dim = f.dim;
     rest = whole;
     koksma_integrand_split(&f, &rest, i->row, KOKSMA_PART_SMOOTH);

@@ -1,5 +1,6 @@
 #include "bound_input.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -44,7 +45,8 @@ static text read_text(const char *file)
     }
     if (in == NULL || ferror(in)) {
         snprintf(err.text, sizeof err.text, "%s%s",
-                 in != NULL ? "cannot read: " : "", strerror(errno));
+                 in != NULL && errno != EISDIR ? "cannot read: " : "",
+                 strerror(errno));
         fail(&t, &err);
     }
     if (!standard) fclose(in);
@@ -188,12 +190,82 @@ static void settle_dim(bound_input *b, const text *t, double dim)
     fail(t, &err);
 }
 
+/* A word of a comment, safe to print. */
+static bool said(const char *about, const char *key, char *word, size_t size)
+{
+    bool found = koksma_about_word(about, key, word, size);
+
+    for (char *c = word; found && *c != '\0'; c++)
+        if (!isgraph((unsigned char)*c)) *c = '?';
+    return found;
+}
+
+_Noreturn static void fail_parameter(const text *t, const char *key,
+                                     const char *about, const char *known)
+{
+    koksma_error err = {.status = KOKSMA_EINVAL};
+    char here[KOKSMA_NUMBER_SIZE], there[KOKSMA_NUMBER_SIZE];
+
+    koksma_about_word(about, key, here, sizeof here);
+    koksma_about_word(known, key, there, sizeof there);
+    snprintf(err.text, sizeof err.text, "%s is %s, but the integrand has %s", key,
+             here, there);
+    fail(t, &err);
+}
+
+/* The integrand is the one that was named, or the first that a comment names. */
+static void check_integrand(bound_input *b, const text *t, const char *about)
+{
+    koksma_error err = {.status = KOKSMA_EINVAL};
+    char name[32], known[32], piece[16], part[16] = "";
+    const char *key;
+
+    if (!said(about, "integrand", name, sizeof name)) return;
+    if (b->about[0] == '\0') snprintf(b->about, sizeof b->about, "%s", about);
+    said(b->about, "integrand", known, sizeof known);
+    said(b->about, "piece", part, sizeof part);
+    if (strcmp(name, known) != 0) {
+        snprintf(err.text, sizeof err.text, "of %s, not of %s", name, known);
+        fail(t, &err);
+    }
+    if (said(about, "piece", piece, sizeof piece) && strcmp(piece, part) != 0) {
+        snprintf(err.text, sizeof err.text, "of the %s piece of %s alone", piece,
+                 name);
+        fail(t, &err);
+    }
+    key = cli_integrand_differs(name, about, b->about);
+    if (key != NULL) fail_parameter(t, key, about, b->about);
+}
+
+/* What a comment says of it. */
+static void read_about(bound_input *b, const text *t, const char *about)
+{
+    double dim;
+
+    check_integrand(b, t, about);
+    if (koksma_about_number(about, "dim", &dim)) settle_dim(b, t, dim);
+}
+
+/* koksma-l2 and koksma-edge write the columns of koksma-star, and say what of. */
+static void check_measure(const text *t, const char *about)
+{
+    koksma_error err = {.status = KOKSMA_EINVAL};
+    char measure[32];
+
+    if (!said(about, "measure", measure, sizeof measure)) return;
+    snprintf(err.text, sizeof err.text,
+             "a table of koksma-%s, which does not bound D*", measure);
+    fail(t, &err);
+}
+
 static bool read_star(bound_input *b, const text *t)
 {
     koksma_table table;
     bool found = columns(&table, t, "n", "upper");
 
     if (found) {
+        check_measure(t, table.about);
+        read_about(b, t, table.about);
         free_curve(&b->star);
         b->star = curve_of(&table, largest);
         settle_dim(b, t, last_of(t, "n", "dim"));
@@ -208,6 +280,7 @@ static bool read_variation(bound_input *b, const text *t)
     bool found = columns(&table, t, "k", "variation");
     char trend[16] = "";
 
+    if (found) read_about(b, t, table.about);
     if (found && koksma_about_word(table.about, "vhk_trend", trend, sizeof trend) &&
         b->facts.vhk_from == KOKSMA_VHK_UNKNOWN) {
         double cells = (double)NAN, growth = (double)NAN;
@@ -232,6 +305,7 @@ static bool read_cells(bound_input *b, const text *t)
     bool found = columns(&table, t, "n", "K");
 
     if (found) {
+        read_about(b, t, table.about);
         settle(&b->facts.extent, last_of(t, "n", "extent"));
         settle(&b->facts.area, last_of(t, "n", "area"));
         settle(&b->facts.jump, last_of(t, "n", "jump"));
@@ -266,13 +340,13 @@ void bound_read_observed(bound_input *b, const char *file)
     double v;
 
     if (!columns(&table, &t, "N", "error|rms")) fail(&t, &err);
+    read_about(b, &t, table.about);
     b->observed = curve_of(&table, root_mean_square);
     b->unscrambled =
         koksma_about_word(table.about, "scramble", word, sizeof word) &&
         strcmp(word, "none") == 0 &&
         koksma_about_word(table.about, "points", word, sizeof word) &&
         strcmp(word, "random") != 0;
-    if (koksma_about_number(table.about, "dim", &v)) settle_dim(b, &t, v);
     if (koksma_about_number(table.about, "sigma", &v)) settle(&b->facts.sigma, v);
     if (koksma_about_number(table.about, "area", &v)) settle(&b->facts.area, v);
     if (koksma_about_number(table.about, "jump", &v)) {

@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "bound.h"
+#include "cli_integrand.h"
 
 /* What koksma-bound reads of the other tools' tables. */
 
@@ -21,13 +22,14 @@ typedef struct bound_input {
     bound_curve star;     /* upper ends of D* */
     bound_curve observed; /* root mean square errors */
     bool unscrambled;     /* the points observed are a sequence as it is */
+    char about[CLI_ABOUT_SIZE]; /* which integrand, as comments say it, or "" */
 } bound_input;
 
 /* Add what a table of koksma-star, koksma-variation or koksma-cells says; what is
- * known already stays.  Exits 1 where it is none of them. */
+ * known already stays.  Exits 1 where it is none of them, or of another integrand. */
 void bound_read_table(bound_input *b, const char *file);
 
-/* Read koksma-error's rows, of replicates or with --summary. */
+/* Read koksma-error's rows, of replicates or with --summary; exits likewise. */
 void bound_read_observed(bound_input *b, const char *file);
 
 /* Make it one value at one N. */

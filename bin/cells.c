@@ -115,6 +115,7 @@ int main(int argc, char *argv[])
     cli_integrand r = {0};
     koksma_facts facts;
     koksma_integrand f;
+    char about[CLI_ABOUT_SIZE];
     bool finished = true;
     int c;
 
@@ -158,7 +159,8 @@ int main(int argc, char *argv[])
         cli_usage("name one integrand; koksma-eval --list lists them");
     else {
         f = choose(&r, &facts, argv[optind]);
-        finished = cells_table(&o, &f, &facts);
+        cli_integrand_about(about, r.row, &f, NULL);
+        finished = cells_table(&o, &f, &facts, about);
     }
     free(o.n);
     cli_finish(finished ? CLI_DONE : CLI_STOPPED);

@@ -34,9 +34,10 @@ const uint32_t *cells_bases(cells_options *o, size_t dim);
 /* The columns n, k, cells of a grid, the last one being its product. */
 uint64_t cells_print_grid(uint64_t n, const uint64_t *cells, size_t dim);
 
-/* A row for each n, of an integrand.  Returns whether all were finished. */
+/* A row for each n, of the integrand that cli_integrand_about calls so.  Returns
+ * whether all were finished. */
 bool cells_table(cells_options *o, const koksma_integrand *f,
-                 const koksma_facts *facts);
+                 const koksma_facts *facts, const char *about);
 
 /* Rows for points on standard input or in files. */
 void cells_sets(cells_options *o, cli_input *input);

@@ -222,7 +222,7 @@ static bool run_lines(cells_options *o, const koksma_integrand *f,
 /* ---- All rows ---------------------------------------------------------------- */
 
 bool cells_table(cells_options *o, const koksma_integrand *f,
-                 const koksma_facts *facts)
+                 const koksma_facts *facts, const char *about)
 {
     static const uint64_t usual = 1 << 10;
     const uint64_t *n = o->count > 0 ? o->n : &usual;
@@ -243,6 +243,7 @@ bool cells_table(cells_options *o, const koksma_integrand *f,
     if (koksma_grid_choose(cells, n[0], f->dim, bases, &err))
         cli_usage("%s", err.text);
     if (lines) finished = run_lines(o, f, &l, axes);
+    if (!cli_quiet()) printf("# koksma: %s\n", about);
     if (o->axes)
         print_axes(axes, f->dim);
     else

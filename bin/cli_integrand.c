@@ -60,6 +60,46 @@ static void apply_bounces(cli_integrand *r)
     r->dim = r->row->dim_least + 2 * (r->bounces - 1);
 }
 
+bool cli_integrand_walks(const koksma_integrand_row *row, const char *piece)
+{
+    return koksma_scene_find(row->name) != NULL &&
+           (piece == NULL || piece[0] == 'j');
+}
+
+void cli_integrand_about(char text[CLI_ABOUT_SIZE], const koksma_integrand_row *row,
+                         const koksma_integrand *f, const char *piece)
+{
+    FILE *to = fmemopen(text, CLI_ABOUT_SIZE, "w");
+    char number[KOKSMA_NUMBER_SIZE];
+
+    if (to == NULL) cli_fail("not enough memory");
+    fprintf(to, "integrand=%s dim=%zu", row->name, f->dim);
+    if (piece != NULL) fprintf(to, " piece=%s", piece);
+    if (cli_integrand_walks(row, piece))
+        fprintf(to, " bounces=%zu", koksma_scene_bounces(f));
+    for (size_t i = 0; i < koksma_integrand_params(row); i++) {
+        koksma_format_number(number, f->param[i]);
+        fprintf(to, " %s=%s", row->params[i].name, number);
+    }
+    fclose(to);
+}
+
+const char *cli_integrand_differs(const char *name, const char *one,
+                                  const char *other)
+{
+    const koksma_integrand_row *row = find_row(name);
+    double v, w;
+
+    for (size_t i = 0; row != NULL && i < koksma_integrand_params(row); i++) {
+        const char *key = row->params[i].name;
+
+        if (koksma_about_number(one, key, &v) &&
+            koksma_about_number(other, key, &w) && v != w)
+            return key;
+    }
+    return NULL;
+}
+
 bool cli_integrand_exists(const char *name) { return find_row(name) != NULL; }
 
 void cli_integrand_choose(cli_integrand *r, const char *name)

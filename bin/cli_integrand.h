@@ -34,4 +34,19 @@ bool cli_integrand_exists(const char *name);
  * makes no sense for it. */
 void cli_integrand_choose(cli_integrand *r, const char *name);
 
+/* Whether the values of that piece, NULL for all, are those of walks in the scene. */
+bool cli_integrand_walks(const koksma_integrand_row *row, const char *piece);
+
+enum { CLI_ABOUT_SIZE = 512 };
+
+/* Which integrand it is, as a "# koksma:" comment says it: integrand, dim, piece
+ * where that is not NULL, bounces of a walk, and the parameters. */
+void cli_integrand_about(char text[CLI_ABOUT_SIZE], const koksma_integrand_row *row,
+                         const koksma_integrand *f, const char *piece);
+
+/* The first parameter of which two such comments say different numbers; NULL where
+ * there is none.  Both are of the integrand called name. */
+const char *cli_integrand_differs(const char *name, const char *one,
+                                  const char *other);
+
 #endif

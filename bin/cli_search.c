@@ -71,6 +71,7 @@ static void print_header(cli_search *s)
 
     if (cli_quiet() || s->header) return;
     s->header = true;
+    if (s->measure != NULL) printf("# koksma: measure=%s\n", s->measure);
     if (s->trace)
         printf("# %sseconds\tsteps\t%s\n", input, interval);
     else

@@ -47,6 +47,7 @@ typedef struct cli_search_method {
 typedef struct cli_search {
     const cli_search_method *methods; /* ended by {0} */
     const char *witness_columns;      /* a tab before each */
+    const char *measure; /* said in a comment; NULL: one that bounds D* */
     /* What was asked for; the headers of the library say what it means. */
     int method;
     double tolerance;

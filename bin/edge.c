@@ -62,7 +62,8 @@ static bool measure(koksma_points p, void *state)
 int main(int argc, char *argv[])
 {
     cli_search s = {.methods = methods,
-                    .witness_columns = "\tinside\tfrom_x\tfrom_y\tto_x\tto_y"};
+                    .witness_columns = "\tinside\tfrom_x\tfrom_y\tto_x\tto_y",
+                    .measure = "edge"};
     int c;
 
     while ((c = cli_next(&tool, argc, argv)) != -1)

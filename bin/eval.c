@@ -103,13 +103,6 @@ _Noreturn static void list_integrands(const cli_integrand *r, const char *part)
 
 /* ---- Values ------------------------------------------------------------------ */
 
-/* Whether the values are those of walks in the scene. */
-static bool has_walks(const job *j)
-{
-    return koksma_scene_find(j->row->name) != NULL &&
-           (j->part == NULL || j->part[0] == 'j');
-}
-
 static void print_key(const char *key, double v)
 {
     if (!isfinite(v)) return;
@@ -120,16 +113,14 @@ static void print_key(const char *key, double v)
 /* What is known of the values: the tools further down need not be told. */
 static void print_comment(const job *j, const char *about)
 {
-    bool scene = has_walks(j);
+    char which[CLI_ABOUT_SIZE];
 
     if (cli_quiet()) return;
-    printf("# koksma:%s integrand=%s dim=%zu", about, j->row->name, j->f.dim);
-    if (j->part != NULL) printf(" piece=%s", j->part);
-    if (scene) printf(" bounces=%zu", koksma_scene_bounces(&j->f));
-    for (size_t i = 0; i < koksma_integrand_params(j->row); i++)
-        print_key(j->row->params[i].name, j->f.param[i]);
+    cli_integrand_about(which, j->row, &j->f, j->part);
+    printf("# koksma:%s %s", about, which);
     print_key("exact", j->facts.integral);
-    if (scene) print_key("neumann", koksma_scene_neumann(&j->f));
+    if (cli_integrand_walks(j->row, j->part))
+        print_key("neumann", koksma_scene_neumann(&j->f));
     print_key("variance", j->facts.variance);
     if (j->facts.jump > 0.0) {
         print_key("area", j->facts.area);
@@ -203,7 +194,7 @@ static void count_hits(job *j)
 
 static void note_poor_sets(const job *j)
 {
-    if (j->poor == 0 || !has_walks(j)) return;
+    if (j->poor == 0 || !cli_integrand_walks(j->row, j->part)) return;
     if (j->sets == 1)
         cli_note("under-resolved: %zu of %zu walks hit", j->worst_hits,
                  j->worst_walks);

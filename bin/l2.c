@@ -49,8 +49,8 @@ static void print_header(const l2_options *o)
     const char *what = o->log10 ? "log10_" : "";
 
     if (cli_quiet()) return;
-    printf("# %sn\tdim\t%slower\t%supper\n", o->input->several ? "input\t" : "",
-           what, what);
+    printf("# koksma: measure=l2\n# %sn\tdim\t%slower\t%supper\n",
+           o->input->several ? "input\t" : "", what, what);
 }
 
 static void print_row(const l2_options *o, koksma_points p,

@@ -90,7 +90,8 @@ static bool report_finished(const variation_options *o, variation_report *r,
 static bool measure_integrand(variation_options *o)
 {
     const cli_integrand *i = &o->integrand;
-    variation_report r = {.integrand = i->row->name};
+    char about[CLI_ABOUT_SIZE];
+    variation_report r = {.about = about};
     koksma_integrand f;
     koksma_facts facts;
     koksma_error err;
@@ -98,6 +99,7 @@ static bool measure_integrand(variation_options *o)
 
     if (koksma_integrand_make(&f, &facts, i->row, i->dim, i->param, &err))
         cli_usage("%s", err.text);
+    cli_integrand_about(about, i->row, &f, NULL);
     r.dim = f.dim;
     r.known = facts.variation;
     if (f.dim <= KOKSMA_VARIATION_DIM_MOST) r.faces = faces_for(f.dim);

@@ -53,9 +53,10 @@ void variation_print_header(variation_form form, bool several)
 static void print_comment(const variation_report *r)
 {
     if (cli_quiet() || r->label != NULL) return;
-    fputs("# koksma:", stdout);
-    if (r->integrand != NULL) printf(" integrand=%s", r->integrand);
-    printf(" dim=%zu vhk=", r->dim);
+    if (r->about != NULL)
+        printf("# koksma: %s vhk=", r->about);
+    else
+        printf("# koksma: dim=%zu vhk=", r->dim);
     cli_number(finest(r)->value.value);
     printf(" vhk_kind=%s vhk_cells=%zu vhk_trend=%s", kind_of(r, finest(r)->value),
            finest(r)->cells, trends[r->result.trend]);

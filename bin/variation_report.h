@@ -21,10 +21,10 @@ typedef struct variation_report {
                              * `reversed` */
     size_t dim;
     bool reversed;
-    bool sampled;          /* values on a grid, of which no more is known */
-    const char *label;     /* NULL: the only one */
-    const char *integrand; /* its name, or NULL */
-    double known;          /* V_HK in closed form; NaN: not known */
+    bool sampled;      /* values on a grid, of which no more is known */
+    const char *label; /* NULL: the only one */
+    const char *about; /* which integrand, by cli_integrand_about, or NULL */
+    double known;      /* V_HK in closed form; NaN: not known */
 } variation_report;
 
 void variation_print_header(variation_form form, bool several);

@@ -206,7 +206,8 @@ t fit-word 1 "" 'koksma-fit: line 2: column 2 is four, not a finite number' \
 
 # ---- L2 discrepancies --------------------------------------------------------------
 
-t l2 0 "# n${tab}dim${tab}lower${tab}upper
+t l2 0 "# koksma: measure=l2
+# n${tab}dim${tab}lower${tab}upper
 1${tab}1${tab}0.08333333333333331${tab}0.08333333333333334" "" \
     'echo 0.5 | koksma-l2 -k centered -m divide --squared'
 t l2-one-point 0 "1${tab}1${tab}0.5773502691896256${tab}0.577350269189626" "" \

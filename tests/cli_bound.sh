@@ -121,6 +121,29 @@ bad empty 'standard input: no table of koksma-star, koksma-variation or koksma-c
 bad other-dim 'star: 2 coordinates, but the integrand has 3' 'koksma-bound f3 star'
 bad word 'w:2: column 2 is x, not a finite number' \
     'printf "# n upper\n8 x\n" >w; koksma-bound f2 w'
+bad l2 'w: a table of koksma-l2, which does not bound D*' \
+    'echo 1 1 | koksma-l2 >w; koksma-bound sum w'
+bad edge 'w: a table of koksma-edge, which does not bound D*' \
+    'echo 1 1 | koksma-edge -w >w; koksma-bound -d 2 --vhk 1 w'
+t box 0 "3 proved" "" \
+    'echo 1 1 | koksma-box | koksma-bound product - -q | head -n 1 | cut -f 3,4 | tr "\t" " "'
+bad other-observed 'rows: of f2, not of gaussian' 'koksma-bound gaussian --observe rows'
+bad other-variation 'grid: of gaussian, not of oscillatory' \
+    'koksma-bound oscillatory grid star'
+bad other-cells 'cells: of ball, not of f3' 'koksma-bound f3 cells'
+bad of-each-other 'rows: of f2, not of gaussian' 'koksma-bound grid --observe rows'
+bad other-parameter 'rows: a is 0, but the integrand has 0.25' \
+    'koksma-bound f2 -a .25 --observe rows'
+bad other-odd 'odd: of a?b, not of f2' \
+    'printf "# koksma: integrand=a\033b\n# N error\n4 .1\n" >odd; koksma-bound f2 --observe odd'
+bad other-bounces 'w: 4 coordinates, but the integrand has 6' \
+    'koksma-cells sphere --bounces 2 --lines 50 >w; koksma-bound sphere --bounces 3 w'
+bad other-piece 'standard input: of the smooth piece of f2 alone' \
+    'koksma-points halton -n 9 | koksma-eval f2 --piece smooth | koksma-error |
+     koksma-bound f2 --observe -'
+t own-integrand 0 "0.25" "" \
+    'printf "# koksma: integrand=disc dim=2 sigma=.5\n# N error\n4 .1\n" >own
+     koksma-bound --observe own -q | awk "/random/ { print \$3 }"'
 bad axes 'the surface depends on 3 axes, and there are 2' 'koksma-bound f2 --axes 3'
 has no-dim 2 'name an integrand, or say the dimension by -d' 'koksma-bound'
 has star-alone 2 '^koksma-bound: --star takes -n with the one N that it is D\* of' \

@@ -2,7 +2,8 @@
 # koksma-cells, and the parts of koksma-eval, as their users meet them.
 . "${top_srcdir:=.}/tests/cli_rows.sh"
 
-head="# n${tab}k${tab}cells${tab}K${tab}K_lower${tab}K_upper${tab}touched${tab}V${tab}M"
+head="# koksma: integrand=ball dim=2 r=0.4
+# n${tab}k${tab}cells${tab}K${tab}K_lower${tab}K_upper${tab}touched${tab}V${tab}M"
 
 # ---- Counting ------------------------------------------------------------------
 
@@ -43,7 +44,8 @@ t interrupt 3 "nan" "koksma-cells: stopped before all cells were counted" \
 t lines 0 "2${tab}1${tab}1" "" \
     'koksma-cells f2 -m lines -q | awk "{ print \$10 \"\t\" \$17 \"\t\" \$20 }"'
 has scene 0 '^1024	' 'koksma-cells sphere --bounces 2 --lines 50'
-t axes 0 "# axis${tab}area
+t axes 0 "# koksma: integrand=f2 dim=2 a=0
+# axis${tab}area
 1${tab}1
 2${tab}1" "" 'koksma-cells f2 --axes | cut -f 1,2'
 has lines-deadline 3 'stopped after [0-9]* lines' \

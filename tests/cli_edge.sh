@@ -4,16 +4,19 @@
 
 koksma-points random -n 300 >few
 
-t corner 0 "# n${tab}dim${tab}lower${tab}upper
+t corner 0 "# koksma: measure=edge
+# n${tab}dim${tab}lower${tab}upper
 1${tab}2${tab}0.9999999999999999${tab}1" "" 'echo 1 0 | koksma-edge'
-t witness 0 "# n${tab}inside${tab}from_x${tab}from_y${tab}to_x${tab}to_y
+t witness 0 "# koksma: measure=edge
+# n${tab}inside${tab}from_x${tab}from_y${tab}to_x${tab}to_y
 1${tab}1${tab}0.5${tab}0${tab}0${tab}0.25" "" 'echo .25 .125 | koksma-edge -w | cut -f 1,5-'
 t left-of-it 0 "8${tab}6${tab}6" "" \
     'koksma-points halton -n 8 --start 1 >p; koksma-edge -q -w p | tr "\t" " " >w
      grep -v "#" p | awk "NR == FNR { a = \$6; b = \$7; c = \$8; d = \$9; n = \$1; m = \$5; next }
          (c - a) * (\$2 - b) - (d - b) * (\$1 - a) > -1e-9 { k++ }
          END { print n \"\t\" m \"\t\" k }" w -'
-t several 0 "# input${tab}n${tab}dim
+t several 0 "# koksma: measure=edge
+# input${tab}n${tab}dim
 a:1${tab}1${tab}2
 a:2${tab}2${tab}2
 1${tab}1${tab}2" "" 'printf "0 0\n\n0 1\n1 1\n" >a; echo .5 .5 | koksma-edge a - | cut -f 1-3'

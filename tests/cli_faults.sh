@@ -116,7 +116,9 @@ END
 out="koksma-bound: standard input: cannot read:"
 t closed-in-bound 1 "" "$out Bad file descriptor" 'koksma-bound f2 - <&-'
 t closed-in-observe 1 "" "$out Bad file descriptor" 'koksma-bound f2 --observe - <&-'
-t folder-in-bound 1 "" "$out Is a directory" 'koksma-bound f2 - <folder'
+t folder-bound 1 "" 'koksma-bound: folder: Is a directory' 'koksma-bound f2 folder'
+t folder-in-bound 1 "" 'koksma-bound: standard input: Is a directory' \
+    'koksma-bound f2 - <folder'
 
 # ---- Memory: a sentence, and nothing half-written --------------------------------
 

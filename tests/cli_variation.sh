@@ -6,7 +6,7 @@ head="# dim${tab}k${tab}variation${tab}lower${tab}upper${tab}kind${tab}trend${ta
 
 # ---- Integrands ------------------------------------------------------------------
 
-t f2 0 "# koksma: integrand=f2 dim=2 vhk=17 vhk_kind=at-least vhk_cells=8 vhk_trend=diverging vhk_rate=0.9175378398080271
+t f2 0 "# koksma: integrand=f2 dim=2 a=0 vhk=17 vhk_kind=at-least vhk_cells=8 vhk_trend=diverging vhk_rate=0.9175378398080271
 $head
 2${tab}8${tab}17${tab}17${tab}17${tab}at-least${tab}diverging${tab}0.9175378398080271" "" \
     'koksma-variation f2 --cells 8'
