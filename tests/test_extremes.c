@@ -135,9 +135,7 @@ static bool fits(int shape, size_t n)
     return multiple > 0 ? n % multiple == 0 : (n & (n - 1)) == 0;
 }
 
-/* ---- What must hold of a result
- * --------------------------------------------------
- */
+/* ---- What must hold of a result ------------------------------------------ */
 
 static void expect(truth t, koksma_interval v, const char *measure, int method,
                    const char *shape, koksma_points p)
