@@ -220,13 +220,8 @@ static void check_box(truth t, koksma_points p, const char *name, bool every)
 static void check_edge(truth t, koksma_points p, const char *name, bool every)
 {
     for (int m = KOKSMA_EDGE_AUTO; m <= KOKSMA_EDGE_TREE; m++)
-        if (every || m == KOKSMA_EDGE_AUTO) {
-            koksma_interval v = edge(p, (koksma_edge_method)m).value;
-
-            ck_assert_msg(truth_inside(t, v) && v.upper - v.lower < 8 * ULP,
-                          "edge by method %d of %zu points %s: [%.17g, %.17g]", m,
-                          p.n, name, v.lower, v.upper);
-        }
+        if (every || m == KOKSMA_EDGE_AUTO)
+            expect(t, edge(p, (koksma_edge_method)m).value, "edge", m, name, p);
 }
 
 /* ---- The shapes -------------------------------------------------------------- */
