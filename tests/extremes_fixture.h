@@ -28,14 +28,6 @@ static inline truth truth_exact(double v) { return (truth){v, 0}; }
 
 static inline int truth_sign(double v) { return (v > 0.0) - (v < 0.0); }
 
-/* num/den, whole numbers below 2^53. */
-static inline truth truth_ratio(double num, double den)
-{
-    double near = num / den;
-
-    return (truth){near, truth_sign(fma(-near, den, num))};
-}
-
 /* a - c^dim, a >= c^dim.  The power is a sum of two doubles: exact where it has at
  * most 106 digits, else to dim 2^-98 of itself, and where that is too little to
  * tell the side this fails. */

@@ -5,6 +5,7 @@
 
 #include "alloc_fixture.h"
 
+#include <math.h>
 #include <pthread.h>
 
 #include "box.h"
@@ -35,7 +36,7 @@ int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes,
 
 /* ---- Discrepancies ----------------------------------------------------------- */
 
-enum { POINTS = 24 };
+enum { POINTS = 24, PAIRS = 300, CROWD = 70 };
 
 /* Anywhere, and every fourth of them on a coarse grid. */
 static koksma_points points(size_t dim)
@@ -48,13 +49,41 @@ static koksma_points points(size_t dim)
     return (koksma_points){x, POINTS, dim};
 }
 
+/* Along a line, and each of them twice: many cells of lines have all of them. */
+static koksma_points pairs(void)
+{
+    static double x[PAIRS * 4];
+    oracle_rng rng = oracle_rng_start(7, 2);
+
+    for (size_t i = 0; i < PAIRS * 2; i += 2) {
+        x[i] = oracle_dyadic(&rng, 40);
+        x[i + 1] = 0.25 + 0.5 * x[i] + ldexp(oracle_dyadic(&rng, 40), -8);
+    }
+    memcpy(x + PAIRS * 2, x, PAIRS * 2 * sizeof *x);
+    return (koksma_points){x, PAIRS * 2, 2};
+}
+
+/* In a spot so narrow that no cell of lines parts them. */
+static koksma_points crowd(void)
+{
+    static double x[CROWD * 2];
+    oracle_rng rng = oracle_rng_start(7, 0);
+
+    for (size_t i = 0; i < CROWD * 2; i++)
+        x[i] = 0.25 + ldexp(oracle_dyadic(&rng, 6), -36);
+    return (koksma_points){x, CROWD, 2};
+}
+
 /* Of any measure: its method, and what else tells jobs apart. */
 typedef struct how {
     int method;
     size_t dim, threads;
     bool anytime; /* l2: not looked at */
-    int kind;     /* of l2 */
+    int kind;     /* of l2; of edge: a set */
 } how;
+
+/* Sets of edge. */
+enum { FEW, IN_PAIRS, CROWDED };
 
 /* Room for the largest result, and for what its witness points to. */
 typedef struct output {
@@ -128,13 +157,22 @@ static koksma_status l2_job(const void *what, koksma_error *err)
     return kept(l2_of(&o, what, err), &o, &before, sizeof o);
 }
 
+static koksma_points plane(int set)
+{
+    switch (set) {
+    case IN_PAIRS: return pairs();
+    case CROWDED: return crowd();
+    default: return points(2);
+    }
+}
+
 static koksma_status edge_of(output *out, const how *h, koksma_error *err)
 {
     koksma_edge_opts opts = {.method = (koksma_edge_method)h->method,
                              .anytime = h->anytime,
                              .threads = h->threads};
 
-    return koksma_edge(&out->r.edge, points(2), &opts, err);
+    return koksma_edge(&out->r.edge, plane(h->kind), &opts, err);
 }
 
 static koksma_status edge_job(const void *what, koksma_error *err)
@@ -234,6 +272,17 @@ static const measure measures[] = {
      edge_of,
      {KOKSMA_EDGE_TREE, 2, 1, true, 0},
      9},
+    /* Lists that grow on the way down. */
+    {"edge, tree of pairs",
+     edge_job,
+     edge_of,
+     {KOKSMA_EDGE_TREE, 2, 1, false, IN_PAIRS},
+     20},
+    {"edge, tree of a crowd",
+     edge_job,
+     edge_of,
+     {KOKSMA_EDGE_TREE, 2, 1, false, CROWDED},
+     34},
 };
 enum { MEASURES = sizeof measures / sizeof *measures };
 
@@ -245,6 +294,41 @@ START_TEST(discrepancies)
     h.threads = _i < MEASURES ? 1 : 2;
     long took = exhaust(m->job, &h, m->name);
     ck_assert_msg(took >= m->least, "%s: %ld allocations alone", m->name, took);
+}
+END_TEST
+
+static int stop_at_once(void *state, double lower, double upper, double work)
+{
+    (void)state, (void)lower, (void)upper, (void)work;
+    return 1;
+}
+
+static koksma_status stopped_job(const void *what, koksma_error *err)
+{
+    const how *h = what;
+    koksma_star_opts opts = {.method = KOKSMA_STAR_LINES,
+                             .threads = h->threads,
+                             .progress = stop_at_once};
+    output o = blank(), before;
+
+    o.r.star.witness.corner = o.corner;
+    memcpy(&before, &o, sizeof o);
+    return kept(koksma_star(&o.r.star, points(h->dim), &opts, err), &o, &before,
+                sizeof o);
+}
+
+/* A search that is cut short has a witness to settle: its last allocation. */
+START_TEST(stopped_searches)
+{
+    static const long least[] = {16, 18};
+
+    for (size_t dim = 2; dim <= 3; dim++) {
+        how h = {.dim = dim, .threads = (size_t)_i};
+        long took =
+            exhaust_until(KOKSMA_STOPPED, stopped_job, &h, "lines, stopped");
+
+        ck_assert_int_ge(took, least[dim - 2]);
+    }
 }
 END_TEST
 
@@ -480,12 +564,14 @@ int main(void)
     TCase *tc = tcase_create("memory"), *threads = tcase_create("threads");
 
     tcase_add_loop_test(tc, discrepancies, 0, MEASURES);
+    tcase_add_loop_test(tc, stopped_searches, 1, 2);
     tcase_add_test(tc, cells);
     tcase_add_test(tc, variation);
     tcase_add_test(tc, curves_and_fits);
     suite_add_tcase(suite, tc);
     tcase_set_tags(threads, "threads");
     tcase_add_loop_test(threads, discrepancies, MEASURES, 2 * MEASURES);
+    tcase_add_loop_test(threads, stopped_searches, 2, 3);
     tcase_add_loop_test(threads, threads_that_do_not_start, 0, MEASURES);
     suite_add_tcase(suite, threads);
     return oracle_run(suite);

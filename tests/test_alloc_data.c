@@ -1,6 +1,7 @@
 /* Out of memory at every allocation, as in test_alloc.c: generators of all
  * families, and readers of all that there is to read. */
 
+#define _GNU_SOURCE /* fopencookie */
 #include "alloc_fixture.h"
 
 #include "gen.h"
@@ -75,13 +76,55 @@ typedef struct input {
     const char *bytes;
     size_t size;
     koksma_content content;
+    size_t signal; /* comes after so many bytes; 0: never */
 } input;
 
-/* fmemopen allocates, and is no part of the library. */
+#ifdef __GLIBC__ /* where a line goes on after a signal */
+enum { SIGNALS = true };
+
+typedef struct rude {
+    const input *in;
+    size_t at;
+    bool interrupted;
+} rude;
+
+static ssize_t give(void *state, char *to, size_t room)
+{
+    rude *r = state;
+    size_t end = r->interrupted ? r->in->size : r->in->signal, now = end - r->at;
+
+    if (now == 0 && !r->interrupted) {
+        r->interrupted = true;
+        errno = EINTR;
+        return -1;
+    }
+    if (now > room) now = room;
+    memcpy(to, r->in->bytes + r->at, now);
+    r->at += now;
+    return (ssize_t)now;
+}
+
+/* One at a time. */
+static FILE *interrupted(const input *in)
+{
+    static rude r;
+
+    r = (rude){.in = in};
+    return fopencookie(&r, "r", (cookie_io_functions_t){.read = give});
+}
+#else
+enum { SIGNALS = false };
+
+static FILE *interrupted(const input *in) { return (void)in, NULL; }
+#endif
+
+/* To open a stream allocates, and is no part of the library. */
 static FILE *open_input(const input *in)
 {
     long saved = atomic_exchange(&granted, -1);
-    FILE *f = fmemopen((void *)(uintptr_t)in->bytes, in->size, "r");
+    FILE *f = in->signal > 0
+                  ? interrupted(in)
+                  : fmemopen((void *)(uintptr_t)in->bytes, in->size, "r");
 
     atomic_store(&granted, saved);
     return f;
@@ -134,7 +177,7 @@ static koksma_status rows_job(const void *what, koksma_error *err)
 }
 
 #define TEXT(text, content)                                                        \
-    (input) { text, sizeof(text) - 1, content }
+    (input) { text, sizeof(text) - 1, content, 0 }
 
 START_TEST(text)
 {
@@ -146,6 +189,21 @@ START_TEST(text)
     ck_assert_int_ge(exhaust(rows_job, &points, "rows"), 8);
     ck_assert_int_ge(exhaust(sets_job, &values, "values"), 8);
     ck_assert_int_ge(exhaust(sets_job, &grid, "grid"), 6);
+}
+END_TEST
+
+/* A signal cuts a line in two: what goes on has more to say than the room that the
+ * first half took. */
+START_TEST(interrupted_text)
+{
+    static char line[4000];
+    input i = {line, sizeof line, KOKSMA_POINTS, 20};
+
+    memset(line, ' ', sizeof line);
+    memcpy(line, "0.5 0.25", 8);
+    memcpy(line + sizeof line - 6, "0.125\n", 6);
+    ck_assert_int_ge(exhaust(sets_job, &i, "a line and a signal"), 6);
+    ck_assert_int_ge(exhaust(rows_job, &i, "a line and a signal"), 6);
 }
 END_TEST
 
@@ -163,7 +221,7 @@ static input npy(char file[320], const char *order, koksma_content content)
         s[127] = '\n';
         memcpy(s + 128, rows, sizeof rows);
     }
-    return (input){file, 320, content};
+    return (input){file, 320, content, 0};
 }
 
 START_TEST(arrays)
@@ -217,6 +275,7 @@ int main(void)
 
     tcase_add_test(tc, generators);
     tcase_add_test(tc, text);
+    if (SIGNALS) tcase_add_test(tc, interrupted_text);
     tcase_add_test(tc, arrays);
     tcase_add_test(tc, tables);
     suite_add_tcase(suite, tc);

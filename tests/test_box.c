@@ -13,7 +13,7 @@
 #include "oracle.h"
 #include "star.h"
 
-enum { DIMS = 6, NUMBERS = 12000 };
+enum { DIMS = 6, NUMBERS = 20000 };
 
 typedef struct test_set {
     double x[NUMBERS];
@@ -64,28 +64,38 @@ static answer solve_by(koksma_points p, koksma_box_method method)
     return a;
 }
 
-/* What a recount of any witness must show, and what any answer. */
-static const char *fault(const answer *a, koksma_points p)
+/* What must hold of any answer, and what a recount of its witness must show. */
+static const char *recount_fault(const answer *a, koksma_points p,
+                                 koksma_interval *again)
 {
     double corners[2 * DIMS];
     koksma_box_witness w = a->r.witness;
-    oracle_ratio local = oracle_between(p, a->corners, w.closed);
-    koksma_interval again;
 
     memcpy(corners, a->corners, sizeof corners);
     w.corners = corners;
-    again = koksma_box_between(&w, p);
+    *again = koksma_box_between(&w, p);
     for (size_t k = 0; k < p.dim; k++)
         if (!(corners[k] <= corners[p.dim + k])) return "a crossed box";
     if (w.inside != oracle_count_between(p, corners, w.closed))
         return "witness count";
-    if (!oracle_at_least(local, a->r.value.lower)) return "witness below the value";
-    if (!oracle_contains(again, local)) return "witness outside its recount";
-    if (!(again.lower >= a->r.value.lower)) return "recount below value.lower";
-    if (!oracle_narrow(again)) return "recount too wide";
+    if (!(again->lower >= a->r.value.lower)) return "recount below value.lower";
+    if (!oracle_narrow(*again)) return "recount too wide";
     if (!(a->r.value.lower > 0.0 && a->r.value.upper <= 1.0)) return "not in (0,1]";
     if (!oracle_narrow(a->r.value)) return "more than two units wide";
     if (!(a->r.work >= 0.0 && a->r.work <= DBL_MAX)) return "work";
+    return NULL;
+}
+
+/* And what its volume must show, where that fits the oracle's integers. */
+static const char *fault(const answer *a, koksma_points p)
+{
+    koksma_interval again;
+    const char *what = recount_fault(a, p, &again);
+    oracle_ratio local = oracle_between(p, a->corners, a->r.witness.closed);
+
+    if (what != NULL) return what;
+    if (!oracle_at_least(local, a->r.value.lower)) return "witness below the value";
+    if (!oracle_contains(again, local)) return "witness outside its recount";
     return NULL;
 }
 
@@ -294,6 +304,29 @@ START_TEST(sweep_and_tree_agree)
 }
 END_TEST
 
+static const struct source larger[] = {
+    {"random", 2, 10000, 0},  {"halton", 2, 3000, 0}, {"hammersley", 2, 4096, 0},
+    {"random", 2, 3000, 100}, {"grid", 2, 4096, 0},
+};
+
+enum { LARGER = sizeof larger / sizeof larger[0] };
+
+/* By as many threads as there are processors, which makes no difference. */
+START_TEST(methods_agree_on_larger_sets)
+{
+    koksma_points p = points_of(&larger[_i]);
+    answer a = solve(p, (koksma_box_opts){.method = KOKSMA_BOX_SWEEP});
+    answer b = solve(p, (koksma_box_opts){.method = KOKSMA_BOX_TREE});
+    koksma_interval again;
+    const char *what = recount_fault(&a, p, &again);
+
+    ck_assert(a.r.method == KOKSMA_BOX_SWEEP && b.r.method == KOKSMA_BOX_TREE);
+    if (what != NULL) complain(what, p, 0, &a);
+    check_same(&a, &b, p, 0);
+    check_star(&a, p, 0);
+}
+END_TEST
+
 START_TEST(same_bits_for_any_threads)
 {
     koksma_points p = points_of(&sources[_i]);
@@ -496,6 +529,7 @@ int main(void)
 {
     Suite *suite = suite_create("box");
     TCase *small = tcase_create("small"), *large = tcase_create("large");
+    TCase *big = tcase_create("big");
 
     tcase_add_test(small, every_small_set);
     tcase_add_loop_test(small, random_sets, 0, sizeof shapes / sizeof shapes[0]);
@@ -513,5 +547,9 @@ int main(void)
     tcase_set_timeout(large, 600);
     suite_add_tcase(suite, small);
     suite_add_tcase(suite, large);
+    tcase_add_loop_test(big, methods_agree_on_larger_sets, 0, LARGER);
+    tcase_set_tags(big, "big");
+    tcase_set_timeout(big, 600);
+    suite_add_tcase(suite, big);
     return oracle_run(suite);
 }

@@ -68,16 +68,6 @@ static bool same(const koksma_edge_result *a, const koksma_edge_result *b)
            memcmp(&a->witness, &b->witness, sizeof a->witness) == 0;
 }
 
-/* At most four doubles lead from end to end. */
-static bool is_narrow(koksma_interval v)
-{
-    double x = v.lower;
-
-    for (int i = 0; i < 4 && x < v.upper; i++)
-        x = nextafter(x, 2.0);
-    return v.lower <= v.upper && x >= v.upper;
-}
-
 /* What is wrong with the witness, counted over the integers. */
 static const char *witness_fault(const test_set *s, const koksma_edge_result *r)
 {
@@ -93,7 +83,7 @@ static const char *witness_fault(const test_set *s, const koksma_edge_result *r)
     if (inside != h->inside) return "witness count";
     if (edge_compare(local, r->value.lower) < 0) return "witness below the value";
     if (!edge_contains(again, local)) return "the recount misses";
-    if (!is_narrow(again)) return "the recount is wide";
+    if (!oracle_narrow(again)) return "the recount is wide";
     return NULL;
 }
 
@@ -105,7 +95,7 @@ static void check_set(const test_set *s, uint64_t round)
     const char *what = witness_fault(s, &sweep);
 
     if (what == NULL && !edge_contains(sweep.value, truth)) what = "D not inside";
-    if (what == NULL && !is_narrow(sweep.value)) what = "too wide";
+    if (what == NULL && !oracle_narrow(sweep.value)) what = "too wide";
     if (what != NULL) complain(what, s, round, &sweep);
     if (!same(&sweep, &tree)) complain("the tree differs", s, round, &tree);
 }
@@ -208,7 +198,7 @@ static void check_known(const double *x, size_t n, double value)
         ck_assert_msg(r.value.lower <= value && value <= r.value.upper,
                       "method %d: [%.17g, %.17g], not %.17g", m, r.value.lower,
                       r.value.upper, value);
-        ck_assert(is_narrow(r.value));
+        ck_assert(oracle_narrow(r.value));
     }
 }
 
@@ -439,7 +429,7 @@ static void check_agreement(const struct source *s, size_t threads)
     ck_assert_msg(same(&sweep, &tree), "%s %zu %g: [%.17g, %.17g], [%.17g, %.17g]",
                   s->family, s->n, s->levels, sweep.value.lower, sweep.value.upper,
                   tree.value.lower, tree.value.upper);
-    ck_assert(is_narrow(tree.value));
+    ck_assert(oracle_narrow(tree.value));
     ck_assert(again.lower == tree.value.lower);
 }
 
