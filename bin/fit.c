@@ -141,6 +141,28 @@ static void keep_path(koksma_table *t, uint64_t path)
     t->sets = 1;
 }
 
+/* The names of a column where none is told. */
+static const char names_x[] = "N|n", names_y[] = "error|rms|upper";
+
+/* Read the table; where none of those names is there, an option says the column. */
+static void read_table(koksma_table *t, const cli_input *input,
+                       const fit_options *o)
+{
+    const char *x = o->x != NULL ? o->x : names_x;
+    const char *y = o->y != NULL ? o->y : names_y;
+    koksma_error err;
+
+    if (koksma_table_read(t, input->in, x, y, &err) == KOKSMA_OK) {
+        if (t->rows > 0) return;
+        err = (koksma_error){.text = "no rows in it"};
+    }
+    if (strcmp(err.text, "no column is called N or n") == 0)
+        strcat(err.text, "; say which by -x");
+    if (strcmp(err.text, "no column is called error, rms or upper") == 0)
+        strcat(err.text, "; say which by -y");
+    cli_fail_input(input, &err);
+}
+
 static void fit_file(const cli_input *input, const fit_options *o, bool header)
 {
     koksma_table t = {0};
@@ -149,9 +171,7 @@ static void fit_file(const cli_input *input, const fit_options *o, bool header)
     koksma_error err;
 
     if (input->several) r.label = input->name != NULL ? input->name : "-";
-    if (koksma_table_read(&t, input->in, o->x != NULL ? o->x : "N|n",
-                          o->y != NULL ? o->y : "error|rms|upper", &err))
-        cli_fail_input(input, &err);
+    read_table(&t, input, o);
     complete(&r, t.about);
     fit_report_candidates(&r, o->claim, o->beta);
     if (opts.from == 0.0) opts.from = default_from(&t);

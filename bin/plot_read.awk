@@ -47,7 +47,7 @@ function chosen(text, otherwise) {
         return text + 0
     if (!has(text))
         stop(place ": " (named == 0 ? \
-            "no line names the columns: give \"" text "\" as a number" : \
+            "no line names the columns: give a number from 1, not \"" text "\"" : \
             "no column is called \"" text "\""))
     return column[text]
 }

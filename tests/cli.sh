@@ -178,11 +178,19 @@ t no-value 1 "" 'koksma-error: line 1: 1 column, but a point and its value take 
 t unequal 1 "" \
     'koksma-error: set 2 has 2 values, the first set 1: --summary takes equal ones' \
     'printf "0 1\n\n0 1\n0 1\n" | koksma-error --exact 0 --summary'
-t fit-column 1 "" 'koksma-fit: standard input: no column is called "error|rms|upper"' \
+t fit-column 1 "" 'koksma-fit: standard input: no column is called error, rms or upper; say which by -y' \
     'printf "# N err\n1 1\n" | koksma-fit'
+t fit-no-names 1 "" 'koksma-fit: standard input: no column is called N or n; say which by -x' \
+    'printf "16 .1\n32 .06\n64 .03\n" | koksma-fit'
+t fit-named 1 "" 'koksma-fit: standard input: no column is called "err"' \
+    'printf "# N e\n1 1\n" | koksma-fit -y err'
+t fit-zero 1 "" \
+    'koksma-fit: standard input: no line names the columns: give a number from 1, not "0"' \
+    'echo 1 1 | koksma-fit -x 0 -y 2'
 t fit-short 1 "" \
     'koksma-fit: standard input: 1 usable N in [0, inf], and a fit takes 3; left out: 0 incomplete, 0 of zeros, 0 below rounding' \
     'printf "16 4\n" | koksma-fit -x 1 -y 2'
+t fit-empty 1 "" 'koksma-fit: standard input: no rows in it' 'echo "# N error" | koksma-fit'
 t fit-zeros 1 "" \
     'koksma-fit: standard input: errors of 0 at all 3 N in the window: there is nothing to fit' \
     'printf "16 0\n32 0\n64 0\n" | koksma-fit -x 1 -y 2'

@@ -119,6 +119,11 @@ static const struct {
 } bad[] = {
     /* No such column. */
     {"# x y\n1 2", "z", "y", I, 0, "no column is called \"z\""},
+    {"# x y\n1 2", "N|n", "y", I, 0, "no column is called N or n"},
+    {"# x y\n1 2", "x", "a|b|c", I, 0, "no column is called a, b or c"},
+    {"1 2\n", "N|n", "2", I, 0, "no column is called N or n"},
+    {"1 2\n", "0", "2", I, 0,
+     "no line names the columns: give a number from 1, not \"0\""},
     {"# x y\n1 2", "x", "z", I, 0, "no column is called \"z\""},
     {"# x y\n1 2", "X", "y", I, 0, "no column is called \"X\""},
     {"# x y\n1 2", "1x", "y", I, 0, "no column is called \"1x\""},
@@ -126,11 +131,12 @@ static const struct {
     {"# x y\n1 2", "-1", "y", I, 0, "no column is called \"-1\""},
     {"# x y\n1 2", "", "y", I, 0, "no column is called \"\""},
     {"#\n1 2", "x", "y", I, 0, "no column is called \"x\""},
-    {"1 2\n", "x", "2", I, 0, "no line names the columns: give \"x\" as a number"},
+    {"1 2\n", "x", "2", I, 0,
+     "no line names the columns: give a number from 1, not \"x\""},
     {"# koksma: x=1\n1 2", "1", "x", I, 0,
-     "no line names the columns: give \"x\" as a number"},
+     "no line names the columns: give a number from 1, not \"x\""},
     {"1 2\n# x y\n", "x", "y", I, 0,
-     "no line names the columns: give \"x\" as a number"},
+     "no line names the columns: give a number from 1, not \"x\""},
     /* No such field. */
     {"1 2\n", "1", "3", F, 1, "2 columns, but column 3 is wanted"},
     {"1 2\n3\n", "1", "2", F, 2, "1 columns, but column 2 is wanted"},
