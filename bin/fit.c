@@ -172,6 +172,7 @@ static void fit_file(const cli_input *input, const fit_options *o, bool header)
 
     if (input->several) r.label = input->name != NULL ? input->name : "-";
     read_table(&t, input, o);
+    r.labelled = t.labelled;
     complete(&r, t.about);
     fit_report_candidates(&r, o->claim, o->beta);
     if (opts.from == 0.0) opts.from = default_from(&t);

@@ -108,6 +108,11 @@ t path-of-many 0 "" "" \
     'koksma-points random -n 2^10 --replicates 3 | koksma-eval f2 | koksma-error >e
      koksma-fit --path 2 -q e >1; grep -v "^[13]" e | koksma-fit -q >2; cmp 1 2'
 has path-said 0 '^It is set 3 alone.  This is one path' 'koksma-fit --path 3 --explain e'
+has replicates-said 0 '^Replicates give one: koksma-points' 'koksma-fit --path 3 --explain e'
+t explain-star 0 "From N = 64 to 256 (3 of them) the error goes like 64 N^s with s = -1.0000.
+This is one path: its errors hang together, and no honest interval can be
+had from it." "" \
+    'printf "# n upper\n64 1\n128 .5\n256 .25\n" | koksma-fit --explain'
 has claim 0 '	-0.5	equivalent	-	claim=' \
     'koksma-points random -n 2^13 --replicates 64 -s 5 | koksma-eval f2 | koksma-error |
      koksma-fit --claim -0.5 --margin 0.2'
