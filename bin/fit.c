@@ -141,6 +141,14 @@ static void keep_path(koksma_table *t, uint64_t path)
     t->sets = 1;
 }
 
+/* A discontinuity has at least the dimension of a surface, at most that of all. */
+static void check_beta(double beta, uint64_t dim)
+{
+    if (dim > 0 && (beta < (double)(dim - 1) || beta > (double)dim))
+        cli_usage("--beta lies between %ju and %ju in dimension %ju, not at %g",
+                  (uintmax_t)(dim - 1), (uintmax_t)dim, (uintmax_t)dim, beta);
+}
+
 /* The names of a column where none is told. */
 static const char names_x[] = "N|n", names_y[] = "error|rms|upper";
 
@@ -174,6 +182,7 @@ static void fit_file(const cli_input *input, const fit_options *o, bool header)
     read_table(&t, input, o);
     r.labelled = t.labelled;
     complete(&r, t.about);
+    check_beta(o->beta, r.dim);
     fit_report_candidates(&r, o->claim, o->beta);
     if (opts.from == 0.0) opts.from = default_from(&t);
     if (!koksma_about_number(t.about, "largest", &opts.scale) || opts.scale < 0.0)
@@ -232,9 +241,7 @@ int main(int argc, char *argv[])
         case PATH: o.path = cli_count("--path", optarg, 1, SIZE_MAX); break;
         case EXPLAIN: o.explain = true; break;
         }
-    if (!isnan(o.beta) && r->dim > 0 && o.beta > (double)r->dim)
-        cli_usage("--beta %g is above the dimension, %ju", o.beta,
-                  (uintmax_t)r->dim);
+    check_beta(o.beta, r->dim);
 
     cli_input input = cli_inputs(argc, argv, KOKSMA_VALUES);
 

@@ -331,6 +331,10 @@ has cap 2 'sphere has cap between 0 and 1, both excluded, not 0' 'koksma-eval sp
 has no-parameter 2 'ball has no parameter q' 'koksma-eval ball -a q=1'
 has none-at-all 2 'sum has no parameters' 'koksma-eval sum -a 1'
 has no-bounces 2 'f2 has no bounces' 'koksma-eval f2 --bounces 2'
+has beta 2 '^koksma-fit: --beta lies between 1 and 2 in dimension 2, not at 5$' \
+    'koksma-fit -d 2 --beta 5'
+has beta-said 2 '^koksma-fit: --beta lies between 2 and 3 in dimension 3, not at 1.9$' \
+    'printf "# koksma: dim=3\n# N error\n16 4\n" | koksma-fit --beta 1.9'
 has integrand-dim 2 '3 coordinates a point, but f2 takes 2' 'koksma-eval f2 -d 3'
 
 # ---- Faults of the system, and stopping ---------------------------------------------
