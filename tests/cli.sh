@@ -214,6 +214,10 @@ t short-set 1 "" 'koksma-error: set 1 has 2 values, and --prefixes asks for 4' \
 t mean-of-one 1 "" \
     'koksma-error: --exact mean takes replicates: the error of one set from its own mean ends at 0' \
     'printf "0 0\n0 1\n" | koksma-error --exact mean'
+t mean-of-short 1 "" \
+    'koksma-error: --exact mean writes N up to 256 of sets of 1024' \
+    'koksma-points random -n 1024 --replicates 2 | koksma-eval f2 |
+     koksma-error --exact mean --prefixes 1024'
 t fit-word 1 "" 'koksma-fit: line 2: column 2 is four, not a finite number' \
     'printf "16 4\n32 four\n" | koksma-fit -x 1 -y 2'
 
