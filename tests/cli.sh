@@ -339,6 +339,8 @@ has beta 2 '^koksma-fit: --beta lies between 1 and 2 in dimension 2, not at 5$' 
     'koksma-fit -d 2 --beta 5'
 has beta-said 2 '^koksma-fit: --beta lies between 2 and 3 in dimension 3, not at 1.9$' \
     'printf "# koksma: dim=3\n# N error\n16 4\n" | koksma-fit --beta 1.9'
+has bounces-differ 2 '^koksma-eval: --bounces 1 of sphere is dimension 2, and -d says 6$' \
+    'koksma-eval sphere --bounces 1 -d 6'
 has integrand-dim 2 '3 coordinates a point, but f2 takes 2' 'koksma-eval f2 -d 3'
 
 # ---- Faults of the system, and stopping ---------------------------------------------
