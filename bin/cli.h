@@ -38,6 +38,10 @@ typedef struct cli_tool {
 int cli_next(const cli_tool *tool, int argc, char *argv[]);
 bool cli_quiet(void);
 
+/* Exit 2, naming it, if one of these options of the tool, ended by 0, was given:
+ * "--axes is WHY". */
+void cli_refuse(const int *ids, const char *why);
+
 /* Numbers as people write them: 1000000, 1e6, 2^20.  Exit 2, naming the option,
  * unless text is one from least to most. */
 uint64_t cli_count(const char *option, const char *text, uint64_t least,
