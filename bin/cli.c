@@ -12,7 +12,7 @@ static const cli_tool *this_tool;
 static bool quiet;
 
 static const cli_option common[] = {
-    {'q', "quiet", NULL, "write no header line"},
+    {'q', "quiet", NULL, "write no comment and no header lines"},
     {'h', "help", NULL, "print this help"},
     {'V', "version", NULL, "print the version"},
     {0},

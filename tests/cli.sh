@@ -131,6 +131,7 @@ t same-bits 0 "" "" \
 has version 0 '^koksma-star (koksma) [0-9]' 'koksma-star --version'
 has help 0 '^  -w, --witness' 'koksma-star -h'
 has list 0 "^sobol${tab}1-1111${tab}-${tab}digital" 'koksma-points --list'
+t list-one 0 "halton${tab}any" "" 'koksma-points halton --list -q | cut -f 1,2'
 
 # ---- Bad input: a sentence with file, line and field, and no result --------------
 
@@ -253,6 +254,10 @@ Try 'koksma-points -h'."
 t no-family 2 "" "koksma-points: name one family; --list lists them$try" 'koksma-points'
 t family 2 "" "koksma-points: no family is called \"hilton\"; --list lists them$try" \
     'koksma-points hilton'
+t list-family 2 "" "koksma-points: no family is called \"foo\"; --list lists them$try" \
+    'koksma-points --list foo'
+has list-two 2 'name one family' 'koksma-points --list halton sobol'
+t no-vector 2 "" "koksma-points: halton takes no vector$try" 'koksma-points halton --vector 1,2'
 t number-tail 2 "" \
     "koksma-points: -n takes a whole number from 1 to 18446744073709551615, not \"10k\"$try" \
     'koksma-points halton -n 10k'
