@@ -65,6 +65,9 @@ _Noreturn void cli_fail(const char *format, ...)
 _Noreturn void cli_fail_as(const koksma_error *err); /* not about an input */
 void cli_note(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
+/* What a noun ends in behind that number. */
+static inline const char *cli_plural(size_t n) { return n == 1 ? "" : "s"; }
+
 /* Flush standard output, and leave with 1 when it cannot be written. */
 void cli_flush(void);
 

@@ -130,7 +130,8 @@ static void keep_path(koksma_table *t, uint64_t path)
     size_t kept = 0;
 
     if (path > t->sets)
-        cli_fail("--path %ju: the table has %zu sets", (uintmax_t)path, t->sets);
+        cli_fail("--path %ju: the table has %zu set%s", (uintmax_t)path, t->sets,
+                 cli_plural(t->sets));
     for (size_t i = 0; i < t->rows; i++)
         if (t->set[i] == path - 1) {
             t->x[kept] = t->x[i];

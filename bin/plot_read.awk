@@ -121,7 +121,8 @@ function end_chunk() {
 
 function number(at) {
     if (at > NF)
-        stop(place ":" line ": " NF " columns, but column " at " is wanted")
+        stop(place ":" line ": " NF (NF == 1 ? " column" : " columns") \
+            ", but column " at " is wanted")
     if (tolower($at) ~ /^[-+]?(nan|inf)/)
         return "NaN"
     if (!is_number($at))

@@ -122,8 +122,8 @@ static void read_lists(lists *l, koksma_gen_opts *o,
         for (size_t i = 0; i < count; i++)
             l->base[i] = (uint32_t)cli_count("--bases", word[i], 2, UINT32_MAX);
         if (family->takes & KOKSMA_TAKES_BASES && count != wanted)
-            cli_usage("%zu bases, but %zu coordinates of %s take %zu", count,
-                      o->dim, family->name, wanted);
+            cli_usage("%zu base%s, but %s in dimension %zu takes %zu", count,
+                      cli_plural(count), family->name, o->dim, wanted);
         o->bases = l->base;
     }
     if (l->vector == NULL) return;

@@ -155,8 +155,8 @@ static koksma_status add_row(koksma_table *t, const ki_lines *lines, columns at,
     }
     if (status == KOKSMA_OK && found < (at.set > 0 ? 3 : 2))
         status = ki_fail(err, KOKSMA_EFORMAT, lines->number,
-                         "%zu columns, but column %zu is wanted", column - 1,
-                         last_of(at));
+                         "%zu column%s, but column %zu is wanted", column - 1,
+                         ki_plural(column - 1), last_of(at));
     if (status == KOKSMA_OK) t->rows++;
     return status;
 }

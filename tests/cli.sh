@@ -140,7 +140,7 @@ bad nan 'line 1: coordinate 2 is nan, not in [0,1]' 'echo 0 nan'
 bad inf 'line 2: coordinate 1 is inf, not in [0,1]' 'printf "0\ninf\n"'
 bad above 'line 3: coordinate 3 is 1.5, not in [0,1]' 'printf "#\n0 0 0\n1 1 1.5\n"'
 bad below 'line 1: coordinate 1 is -1e-300, not in [0,1]' 'echo -1e-300'
-bad ragged 'line 2: 1 columns, but the first line of the set has 2' 'printf "0 1\n0\n"'
+bad ragged 'line 2: 1 column, but the first line of the set has 2' 'printf "0 1\n0\n"'
 bad long 'line 2: more than the 2 columns of the first line of the set' \
     'printf "0 1\n0 0 0\n"'
 bad word 'line 1: column 2 is hello, not a number' 'echo 0 hello'
@@ -162,6 +162,8 @@ t later-set 1 "1${tab}1${tab}1${tab}0.5${tab}0.5
     'printf ".5\n\n.5\n\n7\n" | koksma-star -q'
 t eval-dim 1 "" 'koksma-eval: set 1 has 3 coordinates a point, but f2 takes 2' \
     'echo 0 0 0 | koksma-eval f2'
+t eval-line 1 "" 'koksma-eval: set 1 has 1 coordinate a point, but f2 takes 2' \
+    'echo 0 | koksma-eval f2'
 t eval-dims 1 "" 'koksma-eval: set 1 has 3 coordinates a point, but sphere takes from 2 to 2000, an even number' \
     'echo 0 0 0 | koksma-eval sphere'
 t eval-bounces 1 "" 'koksma-eval: set 1 has 2 coordinates a point, but sphere takes 4' \
@@ -208,7 +210,7 @@ t fit-negative 1 "" \
 t fit-no-interval 1 "" \
     'koksma-fit: one path has no interval: --level and --margin take replicates' \
     'printf "16 4\n64 1\n256 .25\n" | koksma-fit -x 1 -y 2 --level 0.9'
-t fit-path 1 "" 'koksma-fit: --path 2: the table has 1 sets' \
+t fit-path 1 "" 'koksma-fit: --path 2: the table has 1 set' \
     'printf "16 4\n64 1\n256 .25\n" | koksma-fit -x 1 -y 2 --path 2'
 t short-set 1 "" 'koksma-error: set 1 has 2 values, and --prefixes asks for 4' \
     'printf "0 0\n0 1\n" | koksma-error --exact 0 --prefixes 1,4'
@@ -235,7 +237,7 @@ t l2-prefixes 0 "1${tab}1
 4${tab}1
 5${tab}1" "" \
     'seq 0 0.25 1 | koksma-l2 -q --prefixes 1:4,5 | cut -f 1,2'
-t l2-prefix-too-long 1 "" 'koksma-l2: set 1 has 1 points, and --prefixes asks for 2' \
+t l2-prefix-too-long 1 "" 'koksma-l2: set 1 has 1 point, and --prefixes asks for 2' \
     'echo 0 | koksma-l2 -q --prefixes 2'
 has l2-log10 0 '^1	1000	-238.56' \
     'koksma-points grid -d 1000 -n 1 | sed "/^#/d;s/0/1/g" | koksma-l2 -q --log10'
@@ -257,6 +259,8 @@ t family 2 "" "koksma-points: no family is called \"hilton\"; --list lists them$
 t list-family 2 "" "koksma-points: no family is called \"foo\"; --list lists them$try" \
     'koksma-points --list foo'
 has list-two 2 'name one family' 'koksma-points --list halton sobol'
+t bases-few 2 "" "koksma-points: 1 base, but halton in dimension 2 takes 2$try" \
+    'koksma-points halton --bases 2'
 t no-vector 2 "" "koksma-points: halton takes no vector$try" 'koksma-points halton --vector 1,2'
 t number-tail 2 "" \
     "koksma-points: -n takes a whole number from 1 to 18446744073709551615, not \"10k\"$try" \
@@ -317,7 +321,7 @@ t zaremba 0 "0${tab}0.25
 0.5${tab}0
 0.75${tab}0.5" "" 'koksma-points zaremba -n 4 -q'
 t disks-too-many 2 "" \
-    "koksma-points: only 1 points found that are 1 apart, not 2$try" \
+    "koksma-points: only 1 point found that are 1 apart, not 2$try" \
     'koksma-points poisson -n 2 --radius 1 --torus'
 t radius 2 "" "koksma-points: halton keeps no radius$try" \
     'koksma-points halton --radius 0.1'

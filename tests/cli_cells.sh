@@ -105,7 +105,7 @@ usage bounces-differ '--bounces 1 of sphere is dimension 2, and -d says 6' \
 t bounces-agree 0 "1024" "" \
     'koksma-cells sphere -d 4 --bounces 2 --lines 50 -q | cut -f 1'
 usage part '^koksma-eval: --piece takes smooth or jump' 'koksma-eval f2 --piece x'
-t more-than-there-are 1 "" "koksma-cells: set 1 has 1 points, and -n asks for 9" \
+t more-than-there-are 1 "" "koksma-cells: set 1 has 1 point, and -n asks for 9" \
     'echo .5 | koksma-cells --occupancy -n 9 -q'
 t outside 1 "" \
     "koksma-cells: line 1: coordinate 1 is 1.5, not in [0,1]" \

@@ -139,9 +139,9 @@ static const struct {
      "no line names the columns: give a number from 1, not \"x\""},
     /* No such field. */
     {"1 2\n", "1", "3", F, 1, "2 columns, but column 3 is wanted"},
-    {"1 2\n3\n", "1", "2", F, 2, "1 columns, but column 2 is wanted"},
-    {"# x y\n\n1 2\n3 # 4", "y", "x", F, 4, "1 columns, but column 2 is wanted"},
-    {"1,2\n3,", "1", "2", F, 2, "1 columns, but column 2 is wanted"},
+    {"1 2\n3\n", "1", "2", F, 2, "1 column, but column 2 is wanted"},
+    {"# x y\n\n1 2\n3 # 4", "y", "x", F, 4, "1 column, but column 2 is wanted"},
+    {"1,2\n3,", "1", "2", F, 2, "1 column, but column 2 is wanted"},
 #if SIZE_MAX > UINT32_MAX
     {"1 2", "18446744073709551615", "2", F, 1,
      "2 columns, but column 18446744073709551615 is wanted"},
