@@ -43,9 +43,9 @@ static const cli_option options[] = {
     {0},
 };
 
-static const cli_tool tool = {"koksma-cells", "INTEGRAND | -m samples [FILE]...",
-                              "Count the cells that a discontinuity meets.",
-                              options};
+static const cli_tool tool = {
+    "koksma-cells", "INTEGRAND | -m samples [FILE]... | --occupancy [FILE]...",
+    "Count the cells that a discontinuity meets.", options};
 
 static cells_method read_method(const char *text)
 {
@@ -88,20 +88,34 @@ static koksma_integrand choose(cli_integrand *r, koksma_facts *facts,
     return f;
 }
 
+/* What would make no difference is a misunderstanding. */
+static void refuse_strays(const cells_options *o)
+{
+    static const int of_integrands[] = {'a',   BOUNCES, AXES, LINES, STEPS,
+                                        RATIO, 'e',     's',  't',   0};
+    static const int of_samples[] = {JUMP, 0}, of_occupancy[] = {FAMILY, START, 0};
+    static const int of_dim[] = {'d', 0}, of_method[] = {'m', 0};
+    bool samples = !o->occupancy && o->method == CELLS_SAMPLES;
+
+    if (o->occupancy) cli_refuse(of_method, "not for --occupancy");
+    if (!o->occupancy) cli_refuse(of_occupancy, "for --occupancy");
+    if (!samples) cli_refuse(of_samples, "for -m samples");
+    if (!o->occupancy && !samples) return;
+    cli_refuse(of_integrands, "for an integrand, which is not looked at here");
+    if (!o->halton) cli_refuse(of_dim, "not for points, which say the dimension");
+}
+
 /* Points come from the input, or are the first of a family. */
 static void run_sets(cells_options *o, const cli_integrand *r, int argc,
                      char *argv[])
 {
     cli_input input;
 
-    if (r->count > 0 || r->bounces > 0 || o->axes)
-        cli_usage("that is for an integrand, which is not looked at here");
     if (o->occupancy && o->halton) {
         if (optind < argc) cli_usage("--family reads no input");
         cells_halton(o, r->dim > 0 ? r->dim : 2);
         return;
     }
-    if (r->dim > 0) cli_usage("the points say the dimension");
     input = cli_inputs(argc, argv, o->occupancy ? KOKSMA_POINTS : KOKSMA_VALUES);
     cells_sets(o, &input);
 }
@@ -150,8 +164,7 @@ int main(int argc, char *argv[])
         case 'p': o.watch.show = true; break;
         case 'v': o.verbose = true; break;
         }
-    if ((o.halton || o.start > 0) && !o.occupancy)
-        cli_usage("--family and --start go with --occupancy");
+    refuse_strays(&o);
     if (o.start > 0 && !o.halton) cli_usage("--start goes with --family halton");
     if (o.occupancy || o.method == CELLS_SAMPLES)
         run_sets(&o, &r, argc, argv);

@@ -153,8 +153,8 @@ static void measure(sets *s, const koksma_set *set)
 
     for (size_t i = 0; i < count; i++) {
         if (s->o->count > 0 && s->o->n[i] > set->n)
-            cli_fail("set %s has %zu points, and -n asks for %ju", s->input->label,
-                     set->n, (uintmax_t)s->o->n[i]);
+            cli_fail("set %s has %zu point%s, and -n asks for %ju", s->input->label,
+                     set->n, cli_plural(set->n), (uintmax_t)s->o->n[i]);
         if (s->o->count > 0) p.n = (size_t)s->o->n[i];
         if (s->o->occupancy)
             occupy(s, p);

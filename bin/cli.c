@@ -12,13 +12,15 @@ static const cli_tool *this_tool;
 static bool quiet;
 
 static const cli_option common[] = {
-    {'q', "quiet", NULL, "write no header line"},
+    {'q', "quiet", NULL, "write no comment and no header lines"},
     {'h', "help", NULL, "print this help"},
     {'V', "version", NULL, "print the version"},
     {0},
 };
 
 enum { OPTIONS_MOST = 32 };
+
+static bool given[CLI_LONG + OPTIONS_MOST]; /* of each id */
 
 /* ---- Messages ---------------------------------------------------------------- */
 
@@ -151,8 +153,23 @@ int cli_next(const cli_tool *tool, int argc, char *argv[])
             printf("%s (%s) %s\n", tool->name, PACKAGE_NAME, PACKAGE_VERSION);
             cli_finish(CLI_DONE);
         case '?': fprintf(stderr, "Try '%s -h'.\n", tool->name); exit(CLI_USAGE);
-        default: return c;
+        default:
+            if (c != -1) given[c] = true;
+            return c;
         }
+    }
+}
+
+void cli_refuse(const int *ids, const char *why)
+{
+    for (; *ids != 0; ids++) {
+        const cli_option *o = this_tool->options;
+
+        if (!given[*ids]) continue;
+        while (o->id != *ids)
+            o++;
+        if (*ids < CLI_LONG) cli_usage("-%c is %s", *ids, why);
+        cli_usage("--%s is %s", o->name, why);
     }
 }
 

@@ -38,6 +38,10 @@ typedef struct cli_tool {
 int cli_next(const cli_tool *tool, int argc, char *argv[]);
 bool cli_quiet(void);
 
+/* Exit 2, naming it, if one of these options of the tool, ended by 0, was given:
+ * "--axes is WHY". */
+void cli_refuse(const int *ids, const char *why);
+
 /* Numbers as people write them: 1000000, 1e6, 2^20.  Exit 2, naming the option,
  * unless text is one from least to most. */
 uint64_t cli_count(const char *option, const char *text, uint64_t least,
@@ -60,6 +64,9 @@ _Noreturn void cli_fail(const char *format, ...)
     __attribute__((format(printf, 1, 2)));
 _Noreturn void cli_fail_as(const koksma_error *err); /* not about an input */
 void cli_note(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/* What a noun ends in behind that number. */
+static inline const char *cli_plural(size_t n) { return n == 1 ? "" : "s"; }
 
 /* Flush standard output, and leave with 1 when it cannot be written. */
 void cli_flush(void);

@@ -54,10 +54,16 @@ static void apply_settings(cli_integrand *r)
 
 static void apply_bounces(cli_integrand *r)
 {
+    size_t dim;
+
     if (r->bounces == 0) return;
     if (koksma_scene_find(r->row->name) == NULL)
         cli_usage("%s has no bounces", r->row->name);
-    r->dim = r->row->dim_least + 2 * (r->bounces - 1);
+    dim = r->row->dim_least + 2 * (r->bounces - 1);
+    if (r->dim > 0 && r->dim != dim)
+        cli_usage("--bounces %zu of %s is dimension %zu, and -d says %zu",
+                  r->bounces, r->row->name, dim, r->dim);
+    r->dim = dim;
 }
 
 bool cli_integrand_walks(const koksma_integrand_row *row, const char *piece)

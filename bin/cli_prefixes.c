@@ -72,8 +72,8 @@ bool cli_each_prefix(const cli_input *input, const koksma_set *set,
 
     if (count == 0) return measure(p, state);
     if (n[count - 1] > p.n)
-        cli_fail("set %s has %zu points, and --prefixes asks for %ju", input->label,
-                 p.n, (uintmax_t)n[count - 1]);
+        cli_fail("set %s has %zu point%s, and --prefixes asks for %ju",
+                 input->label, p.n, cli_plural(p.n), (uintmax_t)n[count - 1]);
     for (size_t i = 0; i < count; i++)
         if (!measure((koksma_points){p.x, (size_t)n[i], p.dim}, state))
             return false;

@@ -33,6 +33,9 @@ void error_sets_free(error_sets *s)
 
 void error_sets_shift(error_sets *s, double shift)
 {
+    uint64_t longest = 0;
+    bool any = false;
+
     for (size_t r = 0; r < s->count; r++) {
         error_set *set = &s->set[r];
         size_t kept = 0;
@@ -40,7 +43,12 @@ void error_sets_shift(error_sets *s, double shift)
         for (size_t j = 0; j < set->count && set->rows[j].n <= set->n / 4; j++)
             set->rows[kept++] = koksma_curve_shifted(set->rows[j], shift);
         set->count = kept;
+        any = any || kept > 0;
+        if (set->n > longest) longest = set->n;
     }
+    if (!any)
+        cli_fail("--exact mean writes N up to %ju of sets of %ju",
+                 (uintmax_t)(longest / 4), (uintmax_t)longest);
 }
 
 static void print_key(const char *key, double value)

@@ -35,7 +35,7 @@ void error_sets_keep(error_sets *s, const char *label, const koksma_curve_row *r
 void error_sets_free(error_sets *s);
 
 /* Measure the errors from I + shift, and drop the last two octaves of each set,
- * which such an I knows too well. */
+ * which such an I knows too well; exits where nothing is left. */
 void error_sets_shift(error_sets *s, double shift);
 
 void error_print_header(const error_header *h, const char *columns);

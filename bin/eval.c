@@ -215,8 +215,8 @@ static void begin(job *j, const cli_integrand *r, const cli_input *input,
     koksma_error err;
 
     if (dim != columns)
-        cli_fail("set %s has %zu coordinates a point, but %s takes %zu",
-                 input->label, columns, r->row->name, dim);
+        cli_fail("set %s has %zu coordinate%s a point, but %s takes %zu",
+                 input->label, columns, cli_plural(columns), r->row->name, dim);
     if (koksma_integrand_make(&j->f, &j->facts, r->row, dim, r->param, &err))
         cli_fail("set %s has %s", input->label, err.text);
     take_part(&j->f, &j->facts, r->row, j->part);
@@ -240,8 +240,8 @@ static void eval_inputs(const cli_integrand *r, const char *part, cli_input *inp
             if (form != KOKSMA_NPY)
                 print_comment(&j, koksma_reader_about(input->reader));
         } else if (columns != j.f.dim) {
-            cli_fail("set %s has %zu coordinates a point, but the first set %zu",
-                     input->label, columns, j.f.dim);
+            cli_fail("set %s has %zu coordinate%s a point, but the first set %zu",
+                     input->label, columns, cli_plural(columns), j.f.dim);
         } else if (form != KOKSMA_NPY) {
             putchar('\n');
         }

@@ -130,7 +130,8 @@ static void keep_path(koksma_table *t, uint64_t path)
     size_t kept = 0;
 
     if (path > t->sets)
-        cli_fail("--path %ju: the table has %zu sets", (uintmax_t)path, t->sets);
+        cli_fail("--path %ju: the table has %zu set%s", (uintmax_t)path, t->sets,
+                 cli_plural(t->sets));
     for (size_t i = 0; i < t->rows; i++)
         if (t->set[i] == path - 1) {
             t->x[kept] = t->x[i];
@@ -141,6 +142,36 @@ static void keep_path(koksma_table *t, uint64_t path)
     t->sets = 1;
 }
 
+/* A discontinuity has at least the dimension of a surface, at most that of all. */
+static void check_beta(double beta, uint64_t dim)
+{
+    if (dim > 0 && (beta < (double)(dim - 1) || beta > (double)dim))
+        cli_usage("--beta lies between %ju and %ju in dimension %ju, not at %g",
+                  (uintmax_t)(dim - 1), (uintmax_t)dim, (uintmax_t)dim, beta);
+}
+
+/* The names of a column where none is told. */
+static const char names_x[] = "N|n", names_y[] = "error|rms|upper";
+
+/* Read the table; where none of those names is there, an option says the column. */
+static void read_table(koksma_table *t, const cli_input *input,
+                       const fit_options *o)
+{
+    const char *x = o->x != NULL ? o->x : names_x;
+    const char *y = o->y != NULL ? o->y : names_y;
+    koksma_error err;
+
+    if (koksma_table_read(t, input->in, x, y, &err) == KOKSMA_OK) {
+        if (t->rows > 0) return;
+        err = (koksma_error){.text = "no rows in it"};
+    }
+    if (strcmp(err.text, "no column is called N or n") == 0)
+        strcat(err.text, "; say which by -x");
+    if (strcmp(err.text, "no column is called error, rms or upper") == 0)
+        strcat(err.text, "; say which by -y");
+    cli_fail_input(input, &err);
+}
+
 static void fit_file(const cli_input *input, const fit_options *o, bool header)
 {
     koksma_table t = {0};
@@ -149,10 +180,10 @@ static void fit_file(const cli_input *input, const fit_options *o, bool header)
     koksma_error err;
 
     if (input->several) r.label = input->name != NULL ? input->name : "-";
-    if (koksma_table_read(&t, input->in, o->x != NULL ? o->x : "N|n",
-                          o->y != NULL ? o->y : "error|rms|upper", &err))
-        cli_fail_input(input, &err);
+    read_table(&t, input, o);
+    r.labelled = t.labelled;
     complete(&r, t.about);
+    check_beta(o->beta, r.dim);
     fit_report_candidates(&r, o->claim, o->beta);
     if (opts.from == 0.0) opts.from = default_from(&t);
     if (!koksma_about_number(t.about, "largest", &opts.scale) || opts.scale < 0.0)
@@ -211,9 +242,7 @@ int main(int argc, char *argv[])
         case PATH: o.path = cli_count("--path", optarg, 1, SIZE_MAX); break;
         case EXPLAIN: o.explain = true; break;
         }
-    if (!isnan(o.beta) && r->dim > 0 && o.beta > (double)r->dim)
-        cli_usage("--beta %g is above the dimension, %ju", o.beta,
-                  (uintmax_t)r->dim);
+    check_beta(o.beta, r->dim);
 
     cli_input input = cli_inputs(argc, argv, KOKSMA_VALUES);
 

@@ -164,8 +164,10 @@ static void explain_path(const fit_report *r)
     if (r->path > 0) printf("It is set %zu alone.  ", r->path);
     puts("This is one path: its errors hang together, and no honest interval can "
          "be\n"
-         "had from it.  Replicates give one: koksma-points --scramble digits\n"
-         "--replicates 32.");
+         "had from it.");
+    if (r->labelled)
+        puts("Replicates give one: koksma-points --scramble digits --replicates "
+             "32.");
 }
 
 static void explain_candidate(const fit_report *r, const candidate *c)

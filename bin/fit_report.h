@@ -21,6 +21,7 @@ typedef struct fit_report {
     const char *label;  /* of the file; NULL where there is but one */
     const char *column; /* of the errors, as the user named it, or NULL */
     const char *about;  /* the input's comments */
+    bool labelled;      /* a column names the sets, as koksma-error's tables have */
     size_t path;        /* the one set that was picked, from 1; 0: all */
     candidate candidates[CANDIDATES_MOST]; /* the claim first, if there is one */
     size_t count;

@@ -47,7 +47,7 @@ function chosen(text, otherwise) {
         return text + 0
     if (!has(text))
         stop(place ": " (named == 0 ? \
-            "no line names the columns: give \"" text "\" as a number" : \
+            "no line names the columns: give a number from 1, not \"" text "\"" : \
             "no column is called \"" text "\""))
     return column[text]
 }
@@ -121,7 +121,8 @@ function end_chunk() {
 
 function number(at) {
     if (at > NF)
-        stop(place ":" line ": " NF " columns, but column " at " is wanted")
+        stop(place ":" line ": " NF (NF == 1 ? " column" : " columns") \
+            ", but column " at " is wanted")
     if (tolower($at) ~ /^[-+]?(nan|inf)/)
         return "NaN"
     if (!is_number($at))

@@ -39,7 +39,7 @@ static const cli_option options[] = {
     {REPLICATES, "replicates", "R", "so many independent sets (default 1)"},
     {NPY, "npy", NULL, "write NumPy arrays"},
     {HEX, "hex", NULL, "write hexadecimal numbers"},
-    {LIST, "list", NULL, "list the families"},
+    {LIST, "list", NULL, "list the families, or the one named"},
     {0},
 };
 
@@ -48,17 +48,33 @@ static const cli_tool tool = {"koksma-points", "FAMILY",
 
 enum { BLOCK = 4096, WORDS_MOST = 10000 };
 
-static void list_families(void)
+static const koksma_gen_family *family_called(const char *name)
 {
+    const koksma_gen_family *family = koksma_gen_find(name);
+
+    if (family == NULL)
+        cli_usage("no family is called \"%s\"; --list lists them", name);
+    return family;
+}
+
+static void list_row(const koksma_gen_family *f)
+{
+    printf("%s\t", f->name);
+    if (f->max_dim > 1000000)
+        fputs("any", stdout);
+    else
+        printf(f->max_dim > 1 ? "1-%zu" : "%zu", f->max_dim);
+    printf("\t%s\t%s\n", f->needs, f->summary);
+}
+
+/* All families, or the one of that name. */
+_Noreturn static void list_families(const char *name)
+{
+    const koksma_gen_family *one = name != NULL ? family_called(name) : NULL;
+
     if (!cli_quiet()) puts("# family\tdimensions\tneeds\tsummary");
-    for (const koksma_gen_family *f = koksma_gen_families; f->name != NULL; f++) {
-        printf("%s\t", f->name);
-        if (f->max_dim > 1000000)
-            fputs("any", stdout);
-        else
-            printf(f->max_dim > 1 ? "1-%zu" : "%zu", f->max_dim);
-        printf("\t%s\t%s\n", f->needs, f->summary);
-    }
+    for (const koksma_gen_family *f = koksma_gen_families; f->name != NULL; f++)
+        if (one == NULL || f == one) list_row(f);
     cli_finish(CLI_DONE);
 }
 
@@ -106,8 +122,8 @@ static void read_lists(lists *l, koksma_gen_opts *o,
         for (size_t i = 0; i < count; i++)
             l->base[i] = (uint32_t)cli_count("--bases", word[i], 2, UINT32_MAX);
         if (family->takes & KOKSMA_TAKES_BASES && count != wanted)
-            cli_usage("%zu bases, but %zu coordinates of %s take %zu", count,
-                      o->dim, family->name, wanted);
+            cli_usage("%zu base%s, but %s in dimension %zu takes %zu", count,
+                      cli_plural(count), family->name, o->dim, wanted);
         o->bases = l->base;
     }
     if (l->vector == NULL) return;
@@ -220,6 +236,7 @@ typedef struct job {
 static void read_options(job *j, int argc, char *argv[])
 {
     koksma_gen_opts *o = &j->o;
+    bool list = false;
     int c;
 
     while ((c = cli_next(&tool, argc, argv)) != -1)
@@ -242,17 +259,16 @@ static void read_options(job *j, int argc, char *argv[])
             break;
         case NPY: j->form = KOKSMA_NPY; break;
         case HEX: j->form = KOKSMA_HEX; break;
-        case LIST: list_families();
+        case LIST: list = true; break;
         }
+    if (list && argc - optind <= 1) list_families(argv[optind]);
     if (argc - optind != 1) cli_usage("name one family; --list lists them");
 }
 
 static const koksma_gen_family *find_family(job *j, const char *name)
 {
-    const koksma_gen_family *family = koksma_gen_find(name);
+    const koksma_gen_family *family = family_called(name);
 
-    if (family == NULL)
-        cli_usage("no family is called \"%s\"; --list lists them", name);
     if (j->o.dim == 0) j->o.dim = family->max_dim > 1 ? 2 : 1;
     if (j->replicates > 1 && j->o.scramble == KOKSMA_SCRAMBLE_NONE &&
         !(family->takes & KOKSMA_TAKES_SEED))

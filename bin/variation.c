@@ -74,10 +74,11 @@ static void report(const variation_options *o, variation_report *r)
 static bool report_finished(const variation_options *o, variation_report *r,
                             bool finished)
 {
-    if (!finished)
+    if (!finished && r->result.levels == 0)
+        cli_note("stopped; no grid is done");
+    else if (!finished)
         cli_note("stopped; the finest grid that is done has %zu cells an axis",
-                 r->result.levels > 0 ? r->result.level[r->result.levels - 1].cells
-                                      : 0);
+                 r->result.level[r->result.levels - 1].cells);
     if (finished || (r->result.levels > 0 && o->form != VARIATION_FACES))
         report(o, r);
     else
@@ -220,6 +221,33 @@ static void read_options(variation_options *o, int argc, char *argv[])
         }
 }
 
+static bool run_program(variation_options *o, int argc, char *argv[])
+{
+    static const int strays[] = {'a', BOUNCES, 'm', SAMPLES, 's', 0};
+    size_t dim = o->integrand.dim;
+
+    if (optind < argc) cli_usage("--run and %s: one at a time", argv[optind]);
+    cli_refuse(strays, "for integrands, not for --run");
+    if (dim == 0) cli_usage("--run takes -d, the dimension");
+    if (dim > KOKSMA_VARIATION_DIM_MOST)
+        cli_fail("%zu axes have 2^%zu - 1 faces, and at most 2^%d - 1 are looked "
+                 "at",
+                 dim, dim, KOKSMA_VARIATION_DIM_MOST);
+    return measure_program(o);
+}
+
+static void read_files(const variation_options *o, int argc, char *argv[])
+{
+    static const int strays[] = {'a', 'd', BOUNCES, 'm', SAMPLES, 's', 0};
+    static const int of_programs[] = {CELLS, 't', 0};
+    cli_input input;
+
+    cli_refuse(strays, "for integrands, and none is named");
+    cli_refuse(of_programs, "for integrands and programs, and none is named");
+    input = cli_inputs(argc, argv, KOKSMA_GRID);
+    measure_files(o, &input);
+}
+
 int main(int argc, char *argv[])
 {
     variation_options o = {.opts = KOKSMA_VARIATION_DEFAULTS};
@@ -229,26 +257,14 @@ int main(int argc, char *argv[])
     o.opts.state = &o.watch;
     read_options(&o, argc, argv);
     if (o.command != NULL) {
-        if (optind < argc) cli_usage("--run and %s: one at a time", argv[optind]);
-        if (o.integrand.dim == 0) cli_usage("--run takes -d, the dimension");
-        if (o.integrand.dim > KOKSMA_VARIATION_DIM_MOST)
-            cli_fail(
-                "%zu axes have 2^%zu - 1 faces, and at most 2^%d - 1 are looked "
-                "at",
-                o.integrand.dim, o.integrand.dim, KOKSMA_VARIATION_DIM_MOST);
-        finished = measure_program(&o);
+        finished = run_program(&o, argc, argv);
     } else if (optind < argc && cli_integrand_exists(argv[optind])) {
         cli_integrand_choose(&o.integrand, argv[optind++]);
         if (optind < argc)
             cli_usage("one integrand at a time, not %s too", argv[optind]);
         finished = measure_integrand(&o);
     } else {
-        if (o.integrand.dim + o.integrand.bounces + o.integrand.count > 0)
-            cli_usage("-a, -d and --bounces are for integrands, and none is named");
-
-        cli_input input = cli_inputs(argc, argv, KOKSMA_GRID);
-
-        measure_files(&o, &input);
+        read_files(&o, argc, argv);
     }
     cli_finish(finished ? CLI_DONE : CLI_STOPPED);
 }

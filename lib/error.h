@@ -16,6 +16,9 @@ koksma_status ki_fail(koksma_error *err, koksma_status status, size_t line,
 /* "not enough memory for WHAT" */
 koksma_status ki_fail_memory(koksma_error *err, const char *what);
 
+/* What a noun ends in behind that number. */
+static inline const char *ki_plural(size_t n) { return n == 1 ? "" : "s"; }
+
 /* Room for count*size bytes, or NULL: also when the product overflows. */
 void *ki_alloc(size_t count, size_t size);
 

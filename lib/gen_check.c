@@ -57,7 +57,9 @@ koksma_status ki_gen_check(const koksma_gen_family *f, const koksma_gen_opts *o,
     if (status == KOKSMA_OK &&
         ((!(f->takes & KOKSMA_TAKES_VECTOR) && o->vector != NULL) ||
          (!(f->takes & KOKSMA_TAKES_ALPHA) && o->alpha != NULL)))
-        return ki_fail(err, KOKSMA_EINVAL, 0, "%s takes no such vector", f->name);
+        return ki_fail(
+            err, KOKSMA_EINVAL, 0, "%s takes no %svector", f->name,
+            f->takes & (KOKSMA_TAKES_VECTOR | KOKSMA_TAKES_ALPHA) ? "such " : "");
     if (status == KOKSMA_OK && !(f->takes & KOKSMA_TAKES_RADIUS) &&
         (o->radius != 0.0 || o->torus))
         return ki_fail(err, KOKSMA_EINVAL, 0, "%s keeps no radius", f->name);

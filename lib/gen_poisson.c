@@ -217,8 +217,8 @@ static koksma_status prepare(koksma_gen *g, koksma_error *err)
     if (status == KOKSMA_OK &&
         !throw_darts(d, ki_gen_stream(g, 0), o->radius == 0.0))
         return ki_fail(err, KOKSMA_EINVAL, 0,
-                       "only %zu points found that are %g apart, not %zu", d->found,
-                       o->radius, d->n);
+                       "only %zu point%s found that are %g apart, not %zu",
+                       d->found, ki_plural(d->found), o->radius, d->n);
     return status;
 }
 

@@ -52,11 +52,11 @@ static koksma_status check_dim(const koksma_integrand_row *row, size_t dim,
         return KOKSMA_OK;
     if (row->dim_least == row->dim_most)
         return ki_fail(err, KOKSMA_EINVAL, 0,
-                       "%zu coordinates a point, but %s takes %zu", dim, row->name,
-                       row->dim_least);
+                       "%zu coordinate%s a point, but %s takes %zu", dim,
+                       ki_plural(dim), row->name, row->dim_least);
     return ki_fail(err, KOKSMA_EINVAL, 0,
-                   "%zu coordinates a point, but %s takes from %zu to %zu%s", dim,
-                   row->name, row->dim_least, row->dim_most,
+                   "%zu coordinate%s a point, but %s takes from %zu to %zu%s", dim,
+                   ki_plural(dim), row->name, row->dim_least, row->dim_most,
                    row->dim_step == 2 ? ", an even number" : "");
 }
 
@@ -111,8 +111,8 @@ koksma_status koksma_integrand_eval(double *out, const koksma_integrand *f,
     if (status != KOKSMA_OK) return status;
     if (p.dim != f->dim)
         return ki_fail(err, KOKSMA_EINVAL, 0,
-                       "%zu coordinates a point, but the integrand takes %zu",
-                       p.dim, f->dim);
+                       "%zu coordinate%s a point, but the integrand takes %zu",
+                       p.dim, ki_plural(p.dim), f->dim);
     for (size_t i = 0; i < p.n; i++)
         out[i] = f->value(f, p.x + i * p.dim);
     return KOKSMA_OK;

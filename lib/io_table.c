@@ -50,6 +50,36 @@ static size_t column_of_names(const char *names, const char *wanted)
     return column;
 }
 
+/* "N|n" as "N or n", and "a|b|c" as "a, b or c", as far as there is room. */
+static void say_names(char *said, size_t room, const char *wanted)
+{
+    const char *last = strrchr(wanted, '|'), *end = said + room - sizeof " or ";
+
+    for (const char *s = wanted; *s != '\0' && said < end; s++)
+        if (*s != '|')
+            *said++ = *s;
+        else
+            said = stpcpy(said, s == last ? " or " : ", ");
+    *said = '\0';
+}
+
+static koksma_status fail_column(const char *names, const char *wanted,
+                                 koksma_error *err)
+{
+    char said[80];
+
+    if (strchr(wanted, '|') != NULL) {
+        say_names(said, sizeof said, wanted);
+        return ki_fail(err, KOKSMA_EINVAL, 0, "no column is called %s", said);
+    }
+    return ki_fail(
+        err, KOKSMA_EINVAL, 0,
+        names == NULL
+            ? "no line names the columns: give a number from 1, not \"%.40s\""
+            : "no column is called \"%.40s\"",
+        wanted);
+}
+
 static koksma_status find_column(size_t *column, const char *names,
                                  const char *wanted, koksma_error *err)
 {
@@ -60,11 +90,7 @@ static koksma_status find_column(size_t *column, const char *names,
                   ? number
                   : column_of_names(names, wanted);
     if (*column > 0) return KOKSMA_OK;
-    return ki_fail(err, KOKSMA_EINVAL, 0,
-                   names == NULL
-                       ? "no line names the columns: give \"%.40s\" as a number"
-                       : "no column is called \"%.40s\"",
-                   wanted);
+    return fail_column(names, wanted, err);
 }
 
 /* The number of a word among the labels, a new one if need be.  The rows of a
@@ -129,8 +155,8 @@ static koksma_status add_row(koksma_table *t, const ki_lines *lines, columns at,
     }
     if (status == KOKSMA_OK && found < (at.set > 0 ? 3 : 2))
         status = ki_fail(err, KOKSMA_EFORMAT, lines->number,
-                         "%zu columns, but column %zu is wanted", column - 1,
-                         last_of(at));
+                         "%zu column%s, but column %zu is wanted", column - 1,
+                         ki_plural(column - 1), last_of(at));
     if (status == KOKSMA_OK) t->rows++;
     return status;
 }

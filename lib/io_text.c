@@ -38,9 +38,10 @@ static koksma_status parse(koksma_reader *r, double **row, size_t *count,
             return ki_fail_field(err, KOKSMA_EFORMAT, r->lines.number, "column",
                                  have + 1, s, "not a number");
         if (expected > 0 && have >= expected)
-            return ki_fail(err, KOKSMA_EFORMAT, r->lines.number,
-                           "more than the %zu columns of the first line of the set",
-                           expected);
+            return ki_fail(
+                err, KOKSMA_EFORMAT, r->lines.number,
+                "more than the %zu column%s of the first line of the set", expected,
+                ki_plural(expected));
         status = check(
             r, v, have + 1,
             expected > 0 ? have + 1 == expected : *next == '\0' && !comma, s, err);
@@ -53,8 +54,8 @@ static koksma_status parse(koksma_reader *r, double **row, size_t *count,
     }
     if (have < expected)
         return ki_fail(err, KOKSMA_EFORMAT, r->lines.number,
-                       "%zu columns, but the first line of the set has %zu", have,
-                       expected);
+                       "%zu column%s, but the first line of the set has %zu", have,
+                       ki_plural(have), expected);
     *count = have;
     return KOKSMA_OK;
 }

@@ -108,6 +108,11 @@ t path-of-many 0 "" "" \
     'koksma-points random -n 2^10 --replicates 3 | koksma-eval f2 | koksma-error >e
      koksma-fit --path 2 -q e >1; grep -v "^[13]" e | koksma-fit -q >2; cmp 1 2'
 has path-said 0 '^It is set 3 alone.  This is one path' 'koksma-fit --path 3 --explain e'
+has replicates-said 0 '^Replicates give one: koksma-points' 'koksma-fit --path 3 --explain e'
+t explain-star 0 "From N = 64 to 256 (3 of them) the error goes like 64 N^s with s = -1.0000.
+This is one path: its errors hang together, and no honest interval can be
+had from it." "" \
+    'printf "# n upper\n64 1\n128 .5\n256 .25\n" | koksma-fit --explain'
 has claim 0 '	-0.5	equivalent	-	claim=' \
     'koksma-points random -n 2^13 --replicates 64 -s 5 | koksma-eval f2 | koksma-error |
      koksma-fit --claim -0.5 --margin 0.2'
@@ -126,6 +131,7 @@ t same-bits 0 "" "" \
 has version 0 '^koksma-star (koksma) [0-9]' 'koksma-star --version'
 has help 0 '^  -w, --witness' 'koksma-star -h'
 has list 0 "^sobol${tab}1-1111${tab}-${tab}digital" 'koksma-points --list'
+t list-one 0 "halton${tab}any" "" 'koksma-points halton --list -q | cut -f 1,2'
 
 # ---- Bad input: a sentence with file, line and field, and no result --------------
 
@@ -134,7 +140,7 @@ bad nan 'line 1: coordinate 2 is nan, not in [0,1]' 'echo 0 nan'
 bad inf 'line 2: coordinate 1 is inf, not in [0,1]' 'printf "0\ninf\n"'
 bad above 'line 3: coordinate 3 is 1.5, not in [0,1]' 'printf "#\n0 0 0\n1 1 1.5\n"'
 bad below 'line 1: coordinate 1 is -1e-300, not in [0,1]' 'echo -1e-300'
-bad ragged 'line 2: 1 columns, but the first line of the set has 2' 'printf "0 1\n0\n"'
+bad ragged 'line 2: 1 column, but the first line of the set has 2' 'printf "0 1\n0\n"'
 bad long 'line 2: more than the 2 columns of the first line of the set' \
     'printf "0 1\n0 0 0\n"'
 bad word 'line 1: column 2 is hello, not a number' 'echo 0 hello'
@@ -156,6 +162,8 @@ t later-set 1 "1${tab}1${tab}1${tab}0.5${tab}0.5
     'printf ".5\n\n.5\n\n7\n" | koksma-star -q'
 t eval-dim 1 "" 'koksma-eval: set 1 has 3 coordinates a point, but f2 takes 2' \
     'echo 0 0 0 | koksma-eval f2'
+t eval-line 1 "" 'koksma-eval: set 1 has 1 coordinate a point, but f2 takes 2' \
+    'echo 0 | koksma-eval f2'
 t eval-dims 1 "" 'koksma-eval: set 1 has 3 coordinates a point, but sphere takes from 2 to 2000, an even number' \
     'echo 0 0 0 | koksma-eval sphere'
 t eval-bounces 1 "" 'koksma-eval: set 1 has 2 coordinates a point, but sphere takes 4' \
@@ -178,11 +186,19 @@ t no-value 1 "" 'koksma-error: line 1: 1 column, but a point and its value take 
 t unequal 1 "" \
     'koksma-error: set 2 has 2 values, the first set 1: --summary takes equal ones' \
     'printf "0 1\n\n0 1\n0 1\n" | koksma-error --exact 0 --summary'
-t fit-column 1 "" 'koksma-fit: standard input: no column is called "error|rms|upper"' \
+t fit-column 1 "" 'koksma-fit: standard input: no column is called error, rms or upper; say which by -y' \
     'printf "# N err\n1 1\n" | koksma-fit'
+t fit-no-names 1 "" 'koksma-fit: standard input: no column is called N or n; say which by -x' \
+    'printf "16 .1\n32 .06\n64 .03\n" | koksma-fit'
+t fit-named 1 "" 'koksma-fit: standard input: no column is called "err"' \
+    'printf "# N e\n1 1\n" | koksma-fit -y err'
+t fit-zero 1 "" \
+    'koksma-fit: standard input: no line names the columns: give a number from 1, not "0"' \
+    'echo 1 1 | koksma-fit -x 0 -y 2'
 t fit-short 1 "" \
     'koksma-fit: standard input: 1 usable N in [0, inf], and a fit takes 3; left out: 0 incomplete, 0 of zeros, 0 below rounding' \
     'printf "16 4\n" | koksma-fit -x 1 -y 2'
+t fit-empty 1 "" 'koksma-fit: standard input: no rows in it' 'echo "# N error" | koksma-fit'
 t fit-zeros 1 "" \
     'koksma-fit: standard input: errors of 0 at all 3 N in the window: there is nothing to fit' \
     'printf "16 0\n32 0\n64 0\n" | koksma-fit -x 1 -y 2'
@@ -194,13 +210,17 @@ t fit-negative 1 "" \
 t fit-no-interval 1 "" \
     'koksma-fit: one path has no interval: --level and --margin take replicates' \
     'printf "16 4\n64 1\n256 .25\n" | koksma-fit -x 1 -y 2 --level 0.9'
-t fit-path 1 "" 'koksma-fit: --path 2: the table has 1 sets' \
+t fit-path 1 "" 'koksma-fit: --path 2: the table has 1 set' \
     'printf "16 4\n64 1\n256 .25\n" | koksma-fit -x 1 -y 2 --path 2'
 t short-set 1 "" 'koksma-error: set 1 has 2 values, and --prefixes asks for 4' \
     'printf "0 0\n0 1\n" | koksma-error --exact 0 --prefixes 1,4'
 t mean-of-one 1 "" \
     'koksma-error: --exact mean takes replicates: the error of one set from its own mean ends at 0' \
     'printf "0 0\n0 1\n" | koksma-error --exact mean'
+t mean-of-short 1 "" \
+    'koksma-error: --exact mean writes N up to 256 of sets of 1024' \
+    'koksma-points random -n 1024 --replicates 2 | koksma-eval f2 |
+     koksma-error --exact mean --prefixes 1024'
 t fit-word 1 "" 'koksma-fit: line 2: column 2 is four, not a finite number' \
     'printf "16 4\n32 four\n" | koksma-fit -x 1 -y 2'
 
@@ -217,7 +237,7 @@ t l2-prefixes 0 "1${tab}1
 4${tab}1
 5${tab}1" "" \
     'seq 0 0.25 1 | koksma-l2 -q --prefixes 1:4,5 | cut -f 1,2'
-t l2-prefix-too-long 1 "" 'koksma-l2: set 1 has 1 points, and --prefixes asks for 2' \
+t l2-prefix-too-long 1 "" 'koksma-l2: set 1 has 1 point, and --prefixes asks for 2' \
     'echo 0 | koksma-l2 -q --prefixes 2'
 has l2-log10 0 '^1	1000	-238.56' \
     'koksma-points grid -d 1000 -n 1 | sed "/^#/d;s/0/1/g" | koksma-l2 -q --log10'
@@ -236,6 +256,12 @@ Try 'koksma-points -h'."
 t no-family 2 "" "koksma-points: name one family; --list lists them$try" 'koksma-points'
 t family 2 "" "koksma-points: no family is called \"hilton\"; --list lists them$try" \
     'koksma-points hilton'
+t list-family 2 "" "koksma-points: no family is called \"foo\"; --list lists them$try" \
+    'koksma-points --list foo'
+has list-two 2 'name one family' 'koksma-points --list halton sobol'
+t bases-few 2 "" "koksma-points: 1 base, but halton in dimension 2 takes 2$try" \
+    'koksma-points halton --bases 2'
+t no-vector 2 "" "koksma-points: halton takes no vector$try" 'koksma-points halton --vector 1,2'
 t number-tail 2 "" \
     "koksma-points: -n takes a whole number from 1 to 18446744073709551615, not \"10k\"$try" \
     'koksma-points halton -n 10k'
@@ -295,7 +321,7 @@ t zaremba 0 "0${tab}0.25
 0.5${tab}0
 0.75${tab}0.5" "" 'koksma-points zaremba -n 4 -q'
 t disks-too-many 2 "" \
-    "koksma-points: only 1 points found that are 1 apart, not 2$try" \
+    "koksma-points: only 1 point found that are 1 apart, not 2$try" \
     'koksma-points poisson -n 2 --radius 1 --torus'
 t radius 2 "" "koksma-points: halton keeps no radius$try" \
     'koksma-points halton --radius 0.1'
@@ -318,6 +344,12 @@ has cap 2 'sphere has cap between 0 and 1, both excluded, not 0' 'koksma-eval sp
 has no-parameter 2 'ball has no parameter q' 'koksma-eval ball -a q=1'
 has none-at-all 2 'sum has no parameters' 'koksma-eval sum -a 1'
 has no-bounces 2 'f2 has no bounces' 'koksma-eval f2 --bounces 2'
+has beta 2 '^koksma-fit: --beta lies between 1 and 2 in dimension 2, not at 5$' \
+    'koksma-fit -d 2 --beta 5'
+has beta-said 2 '^koksma-fit: --beta lies between 2 and 3 in dimension 3, not at 1.9$' \
+    'printf "# koksma: dim=3\n# N error\n16 4\n" | koksma-fit --beta 1.9'
+has bounces-differ 2 '^koksma-eval: --bounces 1 of sphere is dimension 2, and -d says 6$' \
+    'koksma-eval sphere --bounces 1 -d 6'
 has integrand-dim 2 '3 coordinates a point, but f2 takes 2' 'koksma-eval f2 -d 3'
 
 # ---- Faults of the system, and stopping ---------------------------------------------

@@ -91,10 +91,21 @@ usage bases-common 'common factor' 'koksma-cells ball --bases 2,4'
 usage many-dims 'at most 15' 'koksma-cells ball -d 16 --elementary'
 usage family '^koksma-cells: --family takes halton' \
     'koksma-cells --occupancy --family sobol'
-usage start 'go with --occupancy' 'koksma-cells ball --start 3'
-usage dim-of-points 'points say' 'koksma-cells --occupancy -d 2'
+usage start '^koksma-cells: --start is for --occupancy' 'koksma-cells ball --start 3'
+usage dim-of-points '-d is not for points, which say the dimension' \
+    'koksma-cells --occupancy -d 2'
+usage start-of-points 'goes with --family' 'koksma-cells --occupancy --start 3'
+usage parameter-of-samples '^koksma-cells: -a is for an integrand, which is not looked at' \
+    'koksma-cells -m samples -a 3'
+usage lines-of-points '--lines is for an integrand' 'koksma-cells --occupancy --lines 5'
+usage method-of-points '-m is not for --occupancy' 'koksma-cells --occupancy -m lines'
+usage jump-of-ball '--jump is for -m samples' 'koksma-cells ball --jump 3'
+usage bounces-differ '--bounces 1 of sphere is dimension 2, and -d says 6' \
+    'koksma-cells sphere -d 6 --bounces 1'
+t bounces-agree 0 "1024" "" \
+    'koksma-cells sphere -d 4 --bounces 2 --lines 50 -q | cut -f 1'
 usage part '^koksma-eval: --piece takes smooth or jump' 'koksma-eval f2 --piece x'
-t more-than-there-are 1 "" "koksma-cells: set 1 has 1 points, and -n asks for 9" \
+t more-than-there-are 1 "" "koksma-cells: set 1 has 1 point, and -n asks for 9" \
     'echo .5 | koksma-cells --occupancy -n 9 -q'
 t outside 1 "" \
     "koksma-cells: line 1: coordinate 1 is 1.5, not in [0,1]" \

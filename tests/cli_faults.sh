@@ -51,7 +51,7 @@ points koksma-points halton -n 2^12 --hex
 star koksma-star many
 eval koksma-eval f2 many
 error koksma-error values
-cells koksma-cells -m samples --occupancy many
+cells koksma-cells --occupancy many
 END
     koksma-points grid -n 1 >f
     size=$(koksma-star -q f f | wc -c) row=$((size / 2)) files=f

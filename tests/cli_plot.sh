@@ -82,9 +82,13 @@ t input-names 0 "b c:1" "" \
 t empty 1 "" "koksma-plot: standard input: no rows to draw" ': | koksma-plot -o no.svg'
 t none-drawn 0 "" "" '[ ! -e no.svg ]'
 t no-column 1 "" 'koksma-plot: errors: no column is called "foo"' 'koksma-plot -x foo errors'
-t no-names 1 "" 'koksma-plot: standard input: no line names the columns: give "foo" as a number' \
+t no-names 1 "" 'koksma-plot: standard input: no line names the columns: give a number from 1, not "foo"' \
     'echo 1 2 | koksma-plot -y foo'
+t column-zero 1 "" 'koksma-plot: standard input: no line names the columns: give a number from 1, not "0"' \
+    'echo 1 2 | koksma-plot -x 0'
 t far-column 1 "" 'koksma-plot: errors:2: 5 columns, but column 9 is wanted' 'koksma-plot -y 9 errors'
+t one-column 1 "" 'koksma-plot: standard input:1: 1 column, but column 2 is wanted' \
+    'echo 1 | koksma-plot -x 1 -y 2'
 t which 1 "" "koksma-plot: standard input: it is not clear which columns to draw; say so by -x and -y" \
     'printf "# a b\n1 2\n" | koksma-plot'
 t word 1 "" 'koksma-plot: standard input:2: column 2 is "0x1p-1", not a decimal number' \

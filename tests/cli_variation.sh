@@ -131,12 +131,26 @@ has last-line-cut 0 '^2	8	3	3	3	' \
 t stopped-faces 3 "" "koksma-variation: stopped" \
     'koksma-variation f2 -m grid --cells 2^15 -t 0.001 --faces 2>said
      status=$?; sed "s/;.*//" said >&2; exit $status'
+t stopped-at-once 3 "" "koksma-variation: stopped; no grid is done" \
+    'koksma-variation -d 2 --run "sleep 1; cat" -t 0.1'
 
 has cells 2 'takes a power of 2, not 12' 'koksma-variation f2 --cells 12'
 has run-needs-dim 2 'takes -d, the dimension' 'koksma-variation --run cat'
 has run-and-file 2 'one at a time' 'koksma-variation --run cat -d 2 f2'
 has two-integrands 2 'one integrand at a time, not f3 too' 'koksma-variation f2 f3'
-has dim-of-file 2 'are for integrands, and none is named' 'koksma-variation -d 2 </dev/null'
+has dim-of-file 2 '^koksma-variation: -d is for integrands, and none is named$' 'koksma-variation -d 2 </dev/null'
+has method-of-file 2 '^koksma-variation: -m is for integrands, and none is named$' \
+    'koksma-variation -m random --samples 5000 </dev/null'
+has cells-of-file 2 '^koksma-variation: --cells is for integrands and programs' \
+    'koksma-variation --cells 64 </dev/null'
+has time-of-file 2 '^koksma-variation: -t is for integrands and programs' \
+    'koksma-variation -t 1 </dev/null'
+has method-of-program 2 '^koksma-variation: -m is for integrands, not for --run$' \
+    'koksma-variation -d 2 --run cat -m boundary'
+has parameter-of-program 2 '^koksma-variation: -a is for integrands, not for --run$' \
+    'koksma-variation -d 2 --run cat -a zz=3'
+has bounces-of-program 2 '^koksma-variation: --bounces is for integrands, not for --run$' \
+    'koksma-variation -d 2 --run cat --bounces 4'
 has method 2 'takes auto, grid, boundary or random, not "best"' 'koksma-variation -m best f2'
 has no-range 1 'boundary cells take an integrand whose range is known' \
     'koksma-variation gaussian -m boundary'

@@ -315,7 +315,7 @@ static const struct refusal {
      NULL},
     {"sobol",
      {.dim = 1, .n = 7, .vector = (const uint64_t[]){1}, .vector_size = 1},
-     "sobol takes no such vector"},
+     "sobol takes no vector"},
     {"lattice",
      {.dim = 1, .n = 7, .alpha = (const double[]){1}, .alpha_size = 1},
      "lattice takes no such vector"},

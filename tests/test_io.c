@@ -169,12 +169,12 @@ static const struct {
     {P, ",1", F, 1, "column 1 is empty, not a number"},
     {P, " ,", F, 1, "column 1 is empty, not a number"},
     /* Rows of different lengths. */
-    {P, "0 1\n0\n", F, 2, "1 columns, but the first line of the set has 2"},
+    {P, "0 1\n0\n", F, 2, "1 column, but the first line of the set has 2"},
     {P, "0 1 1\n0 1 1\n0 1#1\n", F, 3,
      "2 columns, but the first line of the set has 3"},
     {P, "0\n\n0 1\n0 1 1", F, 4,
      "more than the 2 columns of the first line of the set"},
-    {P, "0\n0 1", F, 2, "more than the 1 columns of the first line of the set"},
+    {P, "0\n0 1", F, 2, "more than the 1 column of the first line of the set"},
     {P, "0 1\n0 1 1.5", F, 2,
      "more than the 2 columns of the first line of the set"},
     /* Values. */
